@@ -1,0 +1,33 @@
+// The project's exceptions and the one way to write a message: "name: expected rule, got value".
+//   std::invalid_argument   the caller's mistake          (Python: ValueError)
+//   FileError               a file is missing or broken   (Python: burnish.FileError, an OSError)
+//   VulkanError             the driver said no            (Python: burnish.VulkanError, a RuntimeError)
+#pragma once
+
+#include <sstream>
+#include <stdexcept>
+#include <string>
+
+namespace burnish {
+
+/// Joins its arguments as text: message("size: expected 1..16384, got ", width).
+template <typename... Parts>
+std::string message(const Parts&... parts) {
+    std::ostringstream text;
+    (text << ... << parts);
+    return text.str();
+}
+
+/// A file that cannot be used. The text starts with the path.
+class FileError : public std::runtime_error {
+public:
+    FileError(const std::string& path, const std::string& reason) : std::runtime_error(path + ": " + reason) {}
+};
+
+/// A Vulkan call that failed, or a device that lacks what is asked of it.
+class VulkanError : public std::runtime_error {
+public:
+    using std::runtime_error::runtime_error;
+};
+
+} // namespace burnish

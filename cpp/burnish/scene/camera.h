@@ -1,0 +1,20 @@
+// A pinhole or orthographic camera, glTF's conventions: it looks along its own -z, y up.
+#pragma once
+
+#include <string>
+
+#include <glm/glm.hpp>
+
+namespace burnish {
+
+struct Camera {
+    std::string name;
+    glm::mat4 world_from_camera{1.0f}; ///< rigid: rotation and translation only
+    bool is_orthographic = false;
+    float vertical_fov = 0.8f;    ///< radians, in (0, pi); perspective only
+    float half_height = 1.0f;     ///< > 0; orthographic only
+    float near_plane = 0.01f;     ///< > 0 for perspective; the far plane is at infinity (reverse z)
+    float far_plane = 1000.0f;    ///< orthographic only
+};
+
+} // namespace burnish

@@ -1,0 +1,70 @@
+// Distant light as six square faces of linear radiance. Face order, axes and row order are Vulkan's:
+// +X -X +Y -Y +Z -Z; face texel (row, column) has u = (2 column + 1)/N - 1, v = (2 row + 1)/N - 1 and direction
+//   +X: ( 1, -v, -u)   -X: (-1, -v,  u)   +Y: ( u,  1,  v)   -Y: ( u, -1, -v)   +Z: ( u, -v,  1)   -Z: (-u, -v, -1).
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include <glm/glm.hpp>
+
+namespace burnish {
+
+constexpr float HALF_MAX = 65504.0f;
+
+/// What was wrong with the texels given, and was put right.
+struct TexelReport {
+    uint64_t negative = 0;   ///< set to 0
+    uint64_t not_a_number = 0; ///< set to 0
+    uint64_t infinite = 0;   ///< +inf set to HALF_MAX, -inf to 0
+    uint64_t above_half = 0; ///< finite, above HALF_MAX: clamped to it
+    float largest = 0;       ///< largest finite value given
+
+    uint64_t count() const { return negative + not_a_number + infinite + above_half; }
+    /// One sentence for the report, empty when nothing was wrong.
+    std::string sentence() const;
+};
+
+class Environment {
+public:
+    /// `radiance`: 6 * face_size * face_size * 3 floats, (face, row, column, channel).
+    /// face_size: a power of two in 1..2048. Texels are cleaned and counted, never silently.
+    static Environment from_faces(uint32_t face_size, std::vector<float> radiance);
+
+    /// `radiance`: height * width * 3 floats, OpenEXR's lat-long convention: top row latitude +90, left edge longitude
+    /// +180 falling to -180 at the right, longitude 0 (+z) in the middle, +90 at +x. Resampled by area: every lat-long
+    /// texel's energy lands in the cube texels it covers, so that a sun half a degree wide keeps its energy.
+    static Environment from_lat_long(uint32_t height, uint32_t width, const std::vector<float>& radiance, uint32_t face_size);
+
+    uint32_t face_size() const { return face_size_; }
+    const std::vector<float>& radiance() const { return radiance_; }
+    const TexelReport& texel_report() const { return texel_report_; }
+
+    /// world_from_environment: turns the map in the world; a lookup for world direction w reads transpose(rotation) * w.
+    glm::mat3 rotation{1.0f};
+    /// Multiplies the radiance, in stops (factor 2^exposure). Applied when the map is looked up.
+    float exposure = 0.0f;
+    std::string name;
+
+private:
+    uint32_t face_size_ = 0;
+    std::vector<float> radiance_;
+    TexelReport texel_report_;
+};
+
+/// Unit direction through (u, v) in [-1, 1]^2 of a face, and the face and (u, v) a direction meets.
+glm::vec3 cube_direction(uint32_t face, float u, float v);
+uint32_t cube_face(const glm::vec3& direction, float& u, float& v);
+
+/// A Radiance .hdr picture: width, height and height * width * 3 floats, row 0 at the top whatever the file's orientation.
+struct HdrImage {
+    uint32_t width = 0;
+    uint32_t height = 0;
+    std::vector<float> radiance;
+};
+
+/// Reads RLE, old RLE and flat files, headers of Photoshop included. Throws FileError (path, what was expected, what came).
+HdrImage read_hdr(const std::string& path);
+
+} // namespace burnish
