@@ -1,0 +1,27 @@
+// Directional albedo of a Kurt lobe, tabulated where a sampler's estimate is scaled to it.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include <glm/glm.hpp>
+
+namespace burnish {
+
+constexpr uint32_t ALBEDO_COS_NODES = 64;
+
+/// E(omega_o) = weight (r0 E1 + (1 - r0) Es) cos_o^-alpha with
+///   E1 = int D cos_i^(1-alpha) dh,   Es = int D (1 - o.h)^5 cos_i^(1-alpha) dh   over {h : o.h > 0, cos_i > 0}.
+/// Without cos_o^-alpha both stay bounded and smooth. Linear interpolation: node i of the cosine is at
+/// cos_o = (i/(ALBEDO_COS_NODES-1))^2, node j of the azimuth of omega_o at j/(phi_nodes-1) * pi/2 (the lobe is symmetric).
+struct AlbedoTable {
+    uint32_t phi_nodes = 1;            ///< 1 for isotropic lobes
+    std::vector<glm::vec2> entries;    ///< [phi][cos] -> (E1, Es)
+};
+
+AlbedoTable build_albedo_table(glm::vec2 roughness, float alpha);
+
+/// (E1, Es) for one omega_o (unit, z = normal, z > 0); the quadrature behind the tables.
+glm::dvec2 directional_albedo(glm::dvec3 omega_o, glm::dvec2 roughness, double alpha);
+
+} // namespace burnish

@@ -1,0 +1,41 @@
+// What every shade kernel can see. A kernel uses some of it; the driver drops the rest.
+#ifndef BURNISH_SHADE_BINDINGS
+#define BURNISH_SHADE_BINDINGS
+
+#include "shared/constants.h"
+#include "shared/records.h"
+
+layout(local_size_x = TILE_SIZE, local_size_y = TILE_SIZE) in;
+
+layout(constant_id = SPEC_SOURCE) const uint SOURCE = SOURCE_PIXELS;
+layout(constant_id = SPEC_LOBE_COUNT) const uint LOBE_COUNT = 1u;
+layout(constant_id = SPEC_HAS_FRESNEL) const bool HAS_FRESNEL = false;
+layout(constant_id = SPEC_ALPHA) const uint ALPHA = ALPHA_ZERO;
+layout(constant_id = SPEC_HAS_TANGENT) const bool HAS_TANGENT = false;
+layout(constant_id = SPEC_HAS_DIFFUSE) const bool HAS_DIFFUSE = false;
+layout(constant_id = SPEC_HAS_EMISSIVE) const bool HAS_EMISSIVE = false;
+layout(constant_id = SPEC_HAS_VARYING) const bool HAS_VARYING = false;
+layout(constant_id = SPEC_HAS_COAT) const bool HAS_COAT = false;
+layout(constant_id = SPEC_HAS_MAP_ROTATION) const bool HAS_MAP_ROTATION = false;
+layout(constant_id = SPEC_SHADE_CLASS) const uint SHADE_CLASS = 0u;
+
+layout(push_constant) uniform Push { ShadeRecord push; };
+layout(std430, binding = BINDING_VIEW) readonly buffer Views { ViewRecord view; };
+layout(std430, binding = BINDING_MATERIALS) readonly buffer Materials { MaterialRecord materials[]; };
+layout(std430, binding = BINDING_LOBES) readonly buffer Lobes { LobeRecord lobes[]; };
+layout(std430, binding = BINDING_MAP_RECORDS) readonly buffer Maps { MapRecord map_records[]; };
+layout(binding = BINDING_MAPS) uniform samplerCubeArray maps;
+layout(binding = BINDING_SURFACE, rg32ui) uniform readonly uimage2D surface_image;
+layout(binding = BINDING_VARYING_DIFFUSE, rgba16f) uniform readonly image2D varying_diffuse;
+layout(binding = BINDING_VARYING_SPECULAR, rgba16f) uniform readonly image2D varying_specular;
+layout(binding = BINDING_VARYING_EMISSIVE, rgba16f) uniform readonly image2D varying_emissive;
+layout(binding = BINDING_VARYING_COAT, rgba16f) uniform readonly image2D varying_coat;
+layout(std430, binding = BINDING_POINTS) readonly buffer Points { SurfacePoint points[]; };
+layout(std430, binding = BINDING_TILES) readonly buffer Tiles { uint tiles[]; };
+layout(std430, binding = BINDING_RADIANCE) buffer Radiance { vec4 radiance_out[]; };
+layout(std430, binding = BINDING_COUNTERS) buffer CounterBlock { Counters counters; };
+
+// Dispatches are folded into rows of this many groups: a dimension may hold only 65535.
+const uint GROUPS_PER_ROW = 32768u;
+
+#endif

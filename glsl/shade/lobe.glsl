@@ -1,0 +1,183 @@
+// Radiance of one lobe by a pattern of half-vectors (maths: sections 3 and 4), in slope form:
+// with g = n + sx t + sy b (so that g.n = 1, |g|^2 = 1/c), og = g.o and q = 2 c og,
+//   i = q g - o is the mirrored direction, already unit;  cos_i = q - cos_o;  o.h = og sqrt(c).
+#ifndef BURNISH_SHADE_LOBE
+#define BURNISH_SHADE_LOBE
+
+#include "lib/footprint.glsl"
+#include "lib/kurt_lobe.glsl"
+#include "shade/bindings.glsl"
+
+layout(constant_id = SPEC_TABLE) const uint TABLE = TABLE_BUFFER;
+layout(constant_id = SPEC_FOOTPRINT) const uint FOOTPRINT = FOOTPRINT_EXACT;
+layout(constant_id = SPEC_NORMALIZATION) const uint NORMALIZATION = NORMALIZATION_FURNACE;
+layout(constant_id = SPEC_SAMPLE_COUNT) const uint SAMPLE_COUNT = 1u;
+
+#include "shade/sample_constants.glsl"
+
+layout(binding = BINDING_SAMPLE_TABLE, rgba32f) uniform readonly imageBuffer sample_table;
+layout(std430, binding = BINDING_ALBEDO_TABLE) readonly buffer AlbedoTable { vec2 albedo_table[]; };
+
+// What all samples of one lobe at one point share.
+struct LobeView {
+    mat3 frame;        // environment space
+    vec3 omega_o;      // environment space
+    vec3 local_o;      // omega_o in the frame
+    float area_term;   // of the published footprint
+    vec2 roughness;
+    float alpha;
+    float cos_o_power; // max(cos_o, MIN_COS)^-alpha
+    float threshold_log;
+    float layer;
+};
+
+struct LobeSums {
+    vec3 base;          // sum of w L
+    vec3 schlick;       // sum of w (1 - o.h)^5 L
+    float base_weight;  // sum of w
+    float schlick_weight;
+    float density;      // scaled tables: what the weights must be divided by
+};
+
+struct Lookup {
+    vec3 direction;
+    float level;
+    float weight;
+    float schlick;
+    float density;
+};
+
+float cos_i_power(float cos_i, float alpha) {
+    float i = max(cos_i, 0.0);
+    if (ALPHA == ALPHA_ZERO) return i;
+    if (ALPHA == ALPHA_HALF) return sqrt(i);
+    return cos_i > 0.0 ? pow(i, 1.0 - alpha) : 0.0;
+}
+
+float cos_o_power(float cos_o, float alpha) {
+    float o = max(cos_o, MIN_COS);
+    if (ALPHA == ALPHA_ZERO) return 1.0;
+    if (ALPHA == ALPHA_HALF) return inversesqrt(o);
+    return pow(o, -alpha);
+}
+
+Lookup place_lookup(LobeView v, vec4 entry) {
+    vec2 slope = TABLE >= TABLE_SCALED_REGULAR ? entry.xy * v.roughness : entry.xy;
+    float inverse_c = 1.0 + dot(slope, slope);
+    float c = 1.0 / inverse_c;
+    vec3 g = v.frame[2] + slope.x * v.frame[0] + slope.y * v.frame[1];
+    float og = v.local_o.z + slope.x * v.local_o.x + slope.y * v.local_o.y;
+    float q = 2.0 * c * og;
+
+    Lookup lookup;
+    lookup.direction = q * g - v.omega_o;
+    float cos_i = q - v.local_o.z;
+    float weight = entry.z;
+    float texel_factor = entry.w;
+    lookup.density = 0.0;
+    if (TABLE == TABLE_SCALED_REGULAR) {
+        weight *= inverse_c * inverse_c; // D = q / cos_h^4
+        lookup.density = NORMALIZATION == NORMALIZATION_PUBLISHED ? weight : weight * sqrt(c);
+        float reach = v.threshold_log * v.roughness.x * v.roughness.y; // tan^2 of the lobe's edge
+        float narrowing = FOOTPRINT == FOOTPRINT_EXACT ? 2.0 / (1.0 + reach + sqrt(1.0 + reach)) : 1.0 / (1.0 + reach);
+        texel_factor *= v.roughness.x * v.roughness.y * narrowing * (FOOTPRINT == FOOTPRINT_EXACT ? sqrt(c) : sqrt(inverse_c));
+    }
+    if (TABLE == TABLE_SCALED_IMPORTANCE) {
+        weight *= sqrt(inverse_c); // 1 / cos_h
+        texel_factor *= v.roughness.x * v.roughness.y * c * c;
+    }
+    lookup.weight = weight * cos_i_power(cos_i, v.alpha);
+    lookup.schlick = HAS_FRESNEL ? schlick_weight(og * inversesqrt(inverse_c)) : 0.0;
+
+    vec3 a = abs(lookup.direction);
+    float largest = max(max(a.x, a.y), a.z);
+    lookup.level = mip_level(FOOTPRINT == FOOTPRINT_EXACT ? texels_exact(texel_factor, og, largest)
+                                                          : texels_published(texel_factor, v.area_term, og, largest));
+    return lookup;
+}
+
+void add_lookup(inout LobeSums sums, Lookup lookup, float layer) {
+    vec3 light = textureLod(maps, vec4(lookup.direction, layer), lookup.level).rgb;
+    sums.base += lookup.weight * light;
+    sums.base_weight += lookup.weight;
+    if (HAS_FRESNEL) {
+        float weight = lookup.weight * lookup.schlick;
+        sums.schlick += weight * light;
+        sums.schlick_weight += weight;
+    }
+    sums.density += lookup.density;
+}
+
+// Lookups go in phases of four: first the arithmetic of all, then the loads of all, so that a CPU can overlap them.
+const uint PHASE = 4u;
+
+LobeSums gather_constant(LobeView v) {
+    LobeSums sums = LobeSums(vec3(0.0), vec3(0.0), 0.0, 0.0, 0.0);
+    [[unroll]] for (uint k = 0u; k < SAMPLE_COUNT; k += PHASE) {
+        Lookup lookups[PHASE];
+        [[unroll]] for (uint j = 0u; j < PHASE; ++j)
+            if (k + j < SAMPLE_COUNT) lookups[j] = place_lookup(v, SAMPLES[k + j]);
+        [[unroll]] for (uint j = 0u; j < PHASE; ++j)
+            if (k + j < SAMPLE_COUNT) add_lookup(sums, lookups[j], v.layer);
+    }
+    return sums;
+}
+
+// Tables in the buffer are padded to whole phases with entries of weight zero.
+LobeSums gather_buffer(LobeView v, uint table_begin, uint table_count) {
+    LobeSums sums = LobeSums(vec3(0.0), vec3(0.0), 0.0, 0.0, 0.0);
+    for (uint k = 0u; k < table_count; k += PHASE) {
+        Lookup lookups[PHASE];
+        [[unroll]] for (uint j = 0u; j < PHASE; ++j)
+            lookups[j] = place_lookup(v, imageLoad(sample_table, int(table_begin + k + j)));
+        [[unroll]] for (uint j = 0u; j < PHASE; ++j) add_lookup(sums, lookups[j], v.layer);
+    }
+    return sums;
+}
+
+// (E1, Es) at the lobe's view: cosine nodes at (i/63)^2, azimuth nodes over a quarter; see AlbedoTable.
+vec2 albedo_row(uint begin, float cos_o) {
+    float x = sqrt(clamp(cos_o, 0.0, 1.0)) * float(ALBEDO_COS_NODES - 1u);
+    float i = min(floor(x), float(ALBEDO_COS_NODES - 2u));
+    uint entry = begin + uint(i);
+    return mix(albedo_table[entry], albedo_table[entry + 1u], x - i);
+}
+
+vec2 lobe_albedo(uint begin, uint phi_nodes, vec3 local_o) {
+    if (phi_nodes == 1u) return albedo_row(begin, local_o.z);
+    float x = atan(abs(local_o.y), max(abs(local_o.x), 1e-20)) * (2.0 / PI) * float(phi_nodes - 1u);
+    float j = min(floor(x), float(phi_nodes - 2u));
+    uint row = begin + uint(j) * ALBEDO_COS_NODES;
+    return mix(albedo_row(row, local_o.z), albedo_row(row + ALBEDO_COS_NODES, local_o.z), x - j);
+}
+
+// Tables of lobes whose roughness varies hold one row for each of ALBEDO_ROUGHNESS_NODES roughnesses, evenly in their log.
+vec2 varying_albedo(uint begin, vec2 roughness, float cos_o) {
+    float m = sqrt(roughness.x * roughness.y);
+    float x = clamp(log2(m / ALBEDO_LEAST_ROUGHNESS) / -log2(ALBEDO_LEAST_ROUGHNESS), 0.0, 1.0) * float(ALBEDO_ROUGHNESS_NODES - 1u);
+    float j = min(floor(x), float(ALBEDO_ROUGHNESS_NODES - 2u));
+    uint row = begin + uint(j) * ALBEDO_COS_NODES;
+    return mix(albedo_row(row, cos_o), albedo_row(row + ALBEDO_COS_NODES, cos_o), x - j);
+}
+
+vec3 divide_or_zero(vec3 numerator, vec3 denominator) {
+    bvec3 usable = greaterThan(denominator, vec3(1e-30));
+    return mix(vec3(0.0), numerator / max(denominator, vec3(1e-30)), usable);
+}
+
+vec3 finish_lobe(LobeView v, LobeSums sums, vec3 specular, vec3 grazing, vec2 albedo) {
+    vec3 light = specular * sums.base;
+    vec3 weight = specular * sums.base_weight;
+    vec3 exact = specular * albedo.x;
+    if (HAS_FRESNEL) {
+        // F = r0 + (1 - r0) s: with r0 = 1 the second term is absent, and `grazing` is zero.
+        light += grazing * sums.schlick;
+        weight += grazing * sums.schlick_weight;
+        exact += grazing * albedo.y;
+    }
+    if (NORMALIZATION == NORMALIZATION_FURNACE) return divide_or_zero(light, weight) * exact * v.cos_o_power;
+    if (TABLE == TABLE_SCALED_REGULAR) return light / max(sums.density, 1e-30) * v.cos_o_power;
+    return light * v.cos_o_power;
+}
+
+#endif

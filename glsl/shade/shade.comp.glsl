@@ -1,0 +1,57 @@
+// Shades surface points by patterns of half-vectors: regular sampling and filtered importance sampling.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_control_flow_attributes : require
+
+#include "lib/spherical_harmonics.glsl"
+#include "shade/lobe.glsl"
+#include "shade/surface_point.glsl"
+
+vec3 shade_lobe(PointToShade point, MapRecord map, uint lobe_index, uint which) {
+    SurfaceLobe lobe = point_lobe(point, lobe_index, which);
+    LobeRecord record = lobes[lobe_index];
+    LobeView v;
+    // Counter-clockwise about the normal, seen from outside.
+    v.frame[0] = record.rotation_cos * point.frame[0] + record.rotation_sin * point.frame[1];
+    v.frame[1] = record.rotation_cos * point.frame[1] - record.rotation_sin * point.frame[0];
+    v.frame[2] = point.frame[2];
+    v.local_o = point.omega_o * v.frame;
+    for (int k = 0; k < 3; ++k) v.frame[k] = environment_from_world(map, v.frame[k]);
+    v.omega_o = environment_from_world(map, point.omega_o);
+    v.roughness = lobe.roughness;
+    v.alpha = record.alpha;
+    v.cos_o_power = cos_o_power(v.local_o.z, record.alpha);
+    v.area_term = published_area_term(v.local_o);
+    v.threshold_log = record.threshold_log;
+    v.layer = float(map.layer);
+
+    LobeSums sums;
+    if (TABLE == TABLE_CONSTANT)
+        sums = gather_constant(v);
+    else
+        sums = gather_buffer(v, record.table_begin, record.table_count);
+
+    vec2 albedo = vec2(0.0);
+    if (NORMALIZATION == NORMALIZATION_FURNACE) {
+        if (TABLE == TABLE_SCALED_REGULAR)
+            albedo = varying_albedo(record.albedo_begin, v.roughness, v.local_o.z);
+        else
+            albedo = lobe_albedo(record.albedo_begin, record.albedo_phi_nodes, v.local_o);
+    }
+    return finish_lobe(v, sums, lobe.specular, lobe.grazing, albedo);
+}
+
+void main() {
+    PointToShade point = load_point();
+    MaterialRecord material = materials[point.material];
+    MapRecord map = map_records[material.map];
+
+    vec3 radiance = vec3(0.0);
+    if (HAS_DIFFUSE)
+        radiance += point_diffuse(point) * irradiance_over_pi(map.irradiance, environment_from_world(map, point.frame[2]));
+    [[unroll]] for (uint which = 0u; which < LOBE_COUNT; ++which)
+        radiance += shade_lobe(point, map, material.lobe_begin + which, which);
+    radiance *= map.radiance_scale;
+    if (HAS_EMISSIVE) radiance += point_emissive(point);
+    store_radiance(point, radiance, 1.0);
+}

@@ -1,0 +1,123 @@
+// One point to shade, from a G-buffer pixel or from a list: the rest of the kernel cannot tell which.
+#ifndef BURNISH_SHADE_SURFACE_POINT
+#define BURNISH_SHADE_SURFACE_POINT
+
+#include "lib/frame.glsl"
+#include "shade/bindings.glsl"
+
+struct SurfaceLobe {
+    vec3 specular; // weight * r0
+    vec3 grazing;  // weight * (1 - r0)
+    vec2 roughness;
+};
+
+struct PointToShade {
+    bool is_mine;  // else nothing is stored
+    uint index;    // into radiance_out
+    uint material;
+    ivec2 pixel;
+    mat3 frame;    // world
+    vec3 omega_o;  // world, unit, toward the eye
+};
+
+vec3 pixel_ray(vec2 pixel) {
+    return normalize(view.ray_corner.xyz + (pixel.x + 0.5) * view.ray_dx.xyz + (pixel.y + 0.5) * view.ray_dy.xyz);
+}
+
+// The pixel of this invocation in the list of its class; false outside the picture or past the list's end.
+bool locate_pixel(out ivec2 pixel) {
+    uint tile_index = gl_WorkGroupID.y * GROUPS_PER_ROW + gl_WorkGroupID.x;
+    uint tile = tiles[SHADE_CLASS * push.tile_capacity + min(tile_index, push.tile_capacity - 1u)];
+    pixel = ivec2(uvec2(tile & 0xffffu, tile >> 16) * TILE_SIZE + gl_LocalInvocationID.xy);
+    return pixel.x < int(view.width_px) && pixel.y < int(view.height_px);
+}
+
+// A normal that interpolation or a normal map turned away from the eye is bent back to just face it.
+vec3 facing_normal(vec3 n, vec3 omega_o) {
+    const float least = 1e-3;
+    float cos_o = dot(n, omega_o);
+    return cos_o < least ? normalize(n + (least - cos_o) * omega_o) : n;
+}
+
+PointToShade load_point() {
+    PointToShade point;
+    if (SOURCE == SOURCE_POINTS) {
+        uint index = (gl_WorkGroupID.y * GROUPS_PER_ROW + gl_WorkGroupID.x) * (TILE_SIZE * TILE_SIZE) + gl_LocalInvocationIndex;
+        point.is_mine = index < push.point_count;
+        point.index = min(index, push.point_count - 1u);
+        SurfacePoint given = points[point.index];
+        point.material = floatBitsToUint(given.omega_o.w);
+        point.pixel = ivec2(0);
+        point.frame = frame_from_tangent(given.normal.xyz, given.tangent.xyz, given.tangent.w);
+        point.omega_o = given.omega_o.xyz;
+        return point;
+    }
+    bool is_inside = locate_pixel(point.pixel);
+    uvec2 surface = imageLoad(surface_image, point.pixel).xy;
+    point.index = uint(point.pixel.y) * view.width_px + uint(point.pixel.x);
+    point.material = has_surface(surface) ? unpack_material(surface) : 0u;
+    point.is_mine = is_inside && has_surface(surface) && materials[point.material].shade_class == SHADE_CLASS;
+    point.omega_o = -pixel_ray(vec2(point.pixel));
+    if (HAS_TANGENT) {
+        mat3 frame = unpack_frame(surface);
+        float handedness = dot(cross(frame[2], frame[0]), frame[1]);
+        point.frame = frame_from_tangent(facing_normal(frame[2], point.omega_o), frame[0], handedness);
+    } else {
+        point.frame = longitude_frame(facing_normal(unpack_normal(surface), point.omega_o));
+    }
+    return point;
+}
+
+vec3 point_diffuse(PointToShade point) {
+    return HAS_VARYING ? imageLoad(varying_diffuse, point.pixel).rgb : materials[point.material].diffuse.rgb;
+}
+
+vec3 point_emissive(PointToShade point) {
+    return HAS_VARYING ? imageLoad(varying_emissive, point.pixel).rgb : materials[point.material].emissive.rgb;
+}
+
+// Lobe `which` of the point. With varying materials lobe 0 is the base, lobe 1 the clear coat.
+SurfaceLobe point_lobe(PointToShade point, uint lobe_index, uint which) {
+    SurfaceLobe lobe;
+    if (HAS_VARYING && which == 0u) {
+        vec4 specular = imageLoad(varying_specular, point.pixel);
+        lobe.specular = specular.rgb;
+        lobe.grazing = vec3(imageLoad(varying_emissive, point.pixel).a) - specular.rgb;
+        lobe.roughness = vec2(imageLoad(varying_diffuse, point.pixel).a, specular.a);
+        return lobe;
+    }
+    LobeRecord record = lobes[lobe_index];
+    lobe.specular = record.specular.rgb;
+    lobe.grazing = record.grazing.rgb;
+    lobe.roughness = vec2(record.specular.a, record.grazing.a);
+    if (HAS_VARYING && HAS_COAT && which == 1u) {
+        vec4 coat = imageLoad(varying_coat, point.pixel); // x: weight, y: roughness
+        lobe.specular *= coat.x;
+        lobe.grazing *= coat.x;
+        lobe.roughness = vec2(coat.y);
+    }
+    return lobe;
+}
+
+vec3 environment_from_world(MapRecord map, vec3 v) {
+    if (!HAS_MAP_ROTATION) return v;
+    return vec3(dot(map.env_from_world_x.xyz, v), dot(map.env_from_world_y.xyz, v), dot(map.env_from_world_z.xyz, v));
+}
+
+bool is_finite(vec3 v) {
+    // By bits: isnan and isinf may be optimised away.
+    uvec3 exponent = floatBitsToUint(v) & 0x7f800000u;
+    return exponent.x != 0x7f800000u && exponent.y != 0x7f800000u && exponent.z != 0x7f800000u;
+}
+
+// The only way into the picture: what is not finite becomes black and is counted.
+void store_radiance(PointToShade point, vec3 radiance, float alpha) {
+    if (!point.is_mine) return;
+    if (!is_finite(radiance)) {
+        radiance = vec3(0.0);
+        atomicAdd(counters.non_finite, 1u);
+    }
+    radiance_out[point.index] = vec4(radiance, alpha);
+}
+
+#endif

@@ -1,0 +1,103 @@
+// Binding numbers, specialization constants and sizes that GLSL and C++ must agree on.
+#ifndef BURNISH_SHARED_CONSTANTS_H
+#define BURNISH_SHARED_CONSTANTS_H
+
+#include "shared/types.h"
+
+SHARED_BEGIN
+
+// Shading runs over tiles of TILE_SIZE^2 pixels; lanes of a CPU device lie along x, so it is a multiple of 8.
+SHARED_CONST uint TILE_SIZE = 8u;
+// Pipelines ("shade classes") one frame may use; a tile's classes are one bit each. The last is the background.
+SHARED_CONST uint MAX_SHADE_CLASSES = 32u;
+// Samples that fit into specialization constants; beyond, the table is read from a buffer.
+SHARED_CONST uint MAX_CONSTANT_SAMPLES = 64u;
+
+// Nodes of albedo tables: cosines of the view at (i/(ALBEDO_COS_NODES-1))^2; roughness evenly in its log up to 1.
+SHARED_CONST uint ALBEDO_COS_NODES = 64u;
+SHARED_CONST uint ALBEDO_ROUGHNESS_NODES = 16u;
+SHARED_CONST float ALBEDO_LEAST_ROUGHNESS = 0.01f;
+
+// Bindings of the shade kernels.
+SHARED_CONST uint BINDING_VIEW = 0u;
+SHARED_CONST uint BINDING_MATERIALS = 1u;
+SHARED_CONST uint BINDING_LOBES = 2u;
+SHARED_CONST uint BINDING_MAP_RECORDS = 3u;
+SHARED_CONST uint BINDING_SAMPLE_TABLE = 4u;
+SHARED_CONST uint BINDING_ALBEDO_TABLE = 5u;
+SHARED_CONST uint BINDING_MAPS = 6u;
+SHARED_CONST uint BINDING_SURFACE = 7u;
+SHARED_CONST uint BINDING_VARYING_DIFFUSE = 8u;
+SHARED_CONST uint BINDING_VARYING_SPECULAR = 9u;
+SHARED_CONST uint BINDING_VARYING_EMISSIVE = 10u;
+SHARED_CONST uint BINDING_VARYING_COAT = 11u;
+SHARED_CONST uint BINDING_POINTS = 12u;
+SHARED_CONST uint BINDING_TILES = 13u;
+SHARED_CONST uint BINDING_RADIANCE = 14u;
+SHARED_CONST uint BINDING_COUNTERS = 15u;
+SHARED_CONST uint BINDING_TEXEL_ALIAS = 16u;
+SHARED_CONST uint BINDING_STATISTICS = 17u;
+
+// Specialization constants of the shade kernels.
+SHARED_CONST uint SPEC_SOURCE = 0u;
+SHARED_CONST uint SPEC_LOBE_COUNT = 1u;
+SHARED_CONST uint SPEC_HAS_FRESNEL = 2u;
+SHARED_CONST uint SPEC_ALPHA = 3u;
+SHARED_CONST uint SPEC_HAS_TANGENT = 4u;
+SHARED_CONST uint SPEC_TABLE = 5u;
+SHARED_CONST uint SPEC_FOOTPRINT = 6u;
+SHARED_CONST uint SPEC_NORMALIZATION = 7u;
+SHARED_CONST uint SPEC_HAS_DIFFUSE = 8u;
+SHARED_CONST uint SPEC_HAS_EMISSIVE = 9u;
+SHARED_CONST uint SPEC_HAS_VARYING = 10u;
+SHARED_CONST uint SPEC_HAS_MAP_ROTATION = 11u;
+SHARED_CONST uint SPEC_SAMPLE_COUNT = 12u;
+SHARED_CONST uint SPEC_SHADE_CLASS = 13u;
+SHARED_CONST uint SPEC_CLASS_COUNT = 14u;
+SHARED_CONST uint SPEC_HAS_COAT = 15u;
+SHARED_CONST uint SPEC_HAS_ANISOTROPY = 16u;
+SHARED_CONST uint SPEC_SAMPLES = 100u; // four floats a sample follow
+
+SHARED_CONST uint SOURCE_PIXELS = 0u;
+SHARED_CONST uint SOURCE_POINTS = 1u;
+SHARED_CONST uint ALPHA_ZERO = 0u;    // cos_i
+SHARED_CONST uint ALPHA_HALF = 1u;    // a square root
+SHARED_CONST uint ALPHA_GENERAL = 2u; // a power
+SHARED_CONST uint TABLE_CONSTANT = 0u; // one lobe, its samples in the pipeline
+SHARED_CONST uint TABLE_BUFFER = 1u;   // any lobes
+// Any lobes, slopes in units of a roughness that varies over the surface.
+SHARED_CONST uint TABLE_SCALED_REGULAR = 2u;
+SHARED_CONST uint TABLE_SCALED_IMPORTANCE = 3u;
+SHARED_CONST uint FOOTPRINT_PUBLISHED = 0u;
+SHARED_CONST uint FOOTPRINT_EXACT = 1u;
+SHARED_CONST uint NORMALIZATION_CONSTANT = 0u; // the table's weights sum as they must
+SHARED_CONST uint NORMALIZATION_FURNACE = 1u;  // divided by the sum of weights, times the albedo
+SHARED_CONST uint NORMALIZATION_PUBLISHED = 2u; // scaled tables: divided by the sum of D
+SHARED_CONST uint NORMALIZATION_PROJECTED = 3u; // scaled tables: divided by the sum of D cos_h
+
+// Bindings and specialization constants of the surface pass.
+SHARED_CONST uint BINDING_SURFACE_VIEW = 0u;
+SHARED_CONST uint BINDING_SURFACE_MATERIALS = 1u;
+SHARED_CONST uint BINDING_SURFACE_TEXTURE_RECORDS = 2u;
+SHARED_CONST uint BINDING_SURFACE_TEXTURES = 3u; // ten from here on, one for each texture kind
+SHARED_CONST uint TEXTURE_BASE_COLOR = 0u;
+SHARED_CONST uint TEXTURE_METALLIC_ROUGHNESS = 1u;
+SHARED_CONST uint TEXTURE_NORMAL = 2u;
+SHARED_CONST uint TEXTURE_OCCLUSION = 3u;
+SHARED_CONST uint TEXTURE_EMISSIVE = 4u;
+SHARED_CONST uint TEXTURE_SPECULAR = 5u;
+SHARED_CONST uint TEXTURE_SPECULAR_COLOR = 6u;
+SHARED_CONST uint TEXTURE_ANISOTROPY = 7u;
+SHARED_CONST uint TEXTURE_CLEARCOAT = 8u;
+SHARED_CONST uint TEXTURE_CLEARCOAT_ROUGHNESS = 9u;
+SHARED_CONST uint TEXTURE_KINDS = 10u;
+SHARED_CONST uint SPEC_TEXTURES = 0u; // bit k: texture kind k is read
+SHARED_CONST uint SPEC_SURFACE_VARYING = 1u;
+SHARED_CONST uint SPEC_VERTEX_COLOR = 2u;
+SHARED_CONST uint SPEC_ALPHA_MASK = 3u;
+SHARED_CONST uint SPEC_DOUBLE_SIDED = 4u;
+SHARED_CONST uint SPEC_SURFACE_TANGENT = 5u;
+
+SHARED_END
+
+#endif

@@ -1,0 +1,140 @@
+// Records in buffers, written by C++ and read by shaders.
+#ifndef BURNISH_SHARED_RECORDS_H
+#define BURNISH_SHARED_RECORDS_H
+
+#include "shared/types.h"
+
+SHARED_BEGIN
+
+// One Kurt lobe of one material.
+struct LobeRecord {
+    vec4 specular; // rgb: weight * r0; a: roughness along the tangent (Beckmann slope)
+    vec4 grazing;  // rgb: weight * (1 - r0); a: roughness along the bitangent
+    float alpha;   // grazing exponent, 0..1
+    float rotation_cos;
+    float rotation_sin;
+    uint table_begin;      // first entry of its sample table
+    uint table_count;      // samples
+    uint albedo_begin;     // first entry of its albedo table
+    uint albedo_phi_nodes; // 1 = isotropic
+    float threshold_log;   // -ln xi0, for scaled tables of the regular pattern
+};
+SHARED_SIZE(LobeRecord, 64)
+
+// One material seen with one map.
+struct MaterialRecord {
+    vec4 diffuse;  // rgb: kd
+    vec4 emissive; // rgb: radiance
+    uint lobe_begin;
+    uint lobe_count;
+    uint map;         // index of its MapRecord
+    uint shade_class; // which specialised pipeline shades it
+};
+SHARED_SIZE(MaterialRecord, 48)
+
+// One environment map: where it lies and how it is turned. Columns of the matrix are rows of env_from_world.
+struct MapRecord {
+    vec4 env_from_world_x; // xyz: environment x axis in world space
+    vec4 env_from_world_y;
+    vec4 env_from_world_z;
+    vec4 irradiance[9]; // rgb: spherical-harmonic coefficients of irradiance / pi, in environment space
+    float radiance_scale; // 2^exposure
+    uint layer;           // cube in its array
+    uint face_size;       // texels
+    uint pad0;
+};
+SHARED_SIZE(MapRecord, 208)
+
+// The view a frame is drawn from. A pixel's ray is ray_corner + (x + .5) ray_dx + (y + .5) ray_dy, x right, y down.
+struct ViewRecord {
+    mat4 clip_from_world; // reverse z
+    vec4 ray_corner;      // xyz: world direction through the picture's top left corner, not normalised
+    vec4 ray_dx;
+    vec4 ray_dy;
+    uint width_px;
+    uint height_px;
+    uint background_map; // MapRecord behind everything
+    uint pad0;
+};
+SHARED_SIZE(ViewRecord, 128)
+
+// One surface point given from outside instead of a G-buffer pixel.
+struct SurfacePoint {
+    vec4 normal;  // xyz: unit, world
+    vec4 tangent; // xyz: world; w: handedness, bitangent = w cross(normal, tangent)
+    vec4 omega_o; // xyz: unit, toward the eye; w: material index
+};
+SHARED_SIZE(SurfacePoint, 48)
+
+// What a frame counts while it runs.
+struct Counters {
+    uint non_finite; // values stopped on their way into the picture
+    uint pad0;
+    uint pad1;
+    uint pad2;
+};
+SHARED_SIZE(Counters, 16)
+
+// What the surface pass needs of a metallic-roughness material to map it at every pixel.
+struct SurfaceRecord {
+    vec4 base_color;      // linear RGB, coverage
+    vec4 emissive;        // rgb: radiance; a: alpha cutoff
+    vec4 specular;        // rgb: reflectance at normal incidence of a dielectric, from ior and specular colour; a: specular
+    float metallic;
+    float roughness;      // perceptual
+    float anisotropy;     // strength
+    float clearcoat;
+    float clearcoat_roughness; // perceptual
+    float normal_scale;
+    float occlusion_strength;
+    uint texture_begin;   // first of its TEXTURE_KINDS TextureRecords
+};
+SHARED_SIZE(SurfaceRecord, 80)
+
+// Push constants of one draw.
+struct DrawRecord {
+    mat4 world_from_object;
+    vec4 normal_from_object_x; // columns of the inverse transpose; x.w: +-1, the sign of its determinant
+    vec4 normal_from_object_y;
+    vec4 normal_from_object_z;
+    uint material; // index into MaterialRecords and SurfaceRecords
+    uint pad0;
+    uint pad1;
+    uint pad2;
+};
+SHARED_SIZE(DrawRecord, 128)
+
+// Push constants of the shade kernels.
+struct ShadeRecord {
+    uint point_count;  // with SOURCE_POINTS
+    uint tile_capacity; // tiles a class's list can hold
+    uint batch;        // of a progressive reference, counted from 0
+    uint batch_size;   // samples in a batch
+    uint texel_begin;  // of a quadrature reference: texels of the map done in this dispatch
+    uint texel_end;
+    uint pad0;
+    uint pad1;
+};
+SHARED_SIZE(ShadeRecord, 32)
+
+// One texel of the table that draws texels in proportion to their light (Walker's alias method).
+struct TexelAlias {
+    float threshold;   // keep the texel drawn while the fraction is below
+    uint alias;        // else take this one
+    float probability; // of this texel
+    uint pad0;
+};
+SHARED_SIZE(TexelAlias, 16)
+
+// One texture of a material: uv' = (scale_rotation) uv + offset.
+struct TextureRecord {
+    vec4 scale_rotation; // columns of the 2x2 matrix: xy, zw
+    vec2 offset;
+    uint uv_set; // 0 or 1
+    uint pad0;
+};
+SHARED_SIZE(TextureRecord, 32)
+
+SHARED_END
+
+#endif
