@@ -112,11 +112,12 @@ void add_lookup(inout LobeSums sums, Lookup lookup, float layer) {
 const uint PHASE = 4u;
 
 LobeSums gather_constant(LobeView v) {
+    vec4 samples[MAX_CONSTANT_SAMPLES] = SAMPLE_ENTRIES;
     LobeSums sums = LobeSums(vec3(0.0), vec3(0.0), 0.0, 0.0, 0.0);
     [[unroll]] for (uint k = 0u; k < SAMPLE_COUNT; k += PHASE) {
         Lookup lookups[PHASE];
         [[unroll]] for (uint j = 0u; j < PHASE; ++j)
-            if (k + j < SAMPLE_COUNT) lookups[j] = place_lookup(v, SAMPLES[k + j]);
+            if (k + j < SAMPLE_COUNT) lookups[j] = place_lookup(v, samples[k + j]);
         [[unroll]] for (uint j = 0u; j < PHASE; ++j)
             if (k + j < SAMPLE_COUNT) add_lookup(sums, lookups[j], v.layer);
     }
