@@ -12,14 +12,16 @@
 namespace burnish {
 
 constexpr float HALF_MAX = 65504.0f;
+constexpr uint32_t MAX_FACE_SIZE = 2048;
 
-/// What was wrong with the texels given, and was put right.
+/// What was wrong with the texels given, and was put right. A texel counts once, under its worst fault in the order
+/// NaN, infinite, above half, negative; every faulty channel is repaired, the others are left as they are.
 struct TexelReport {
-    uint64_t negative = 0;   ///< set to 0
+    uint64_t negative = 0;     ///< set to 0
     uint64_t not_a_number = 0; ///< set to 0
-    uint64_t infinite = 0;   ///< +inf set to HALF_MAX, -inf to 0
-    uint64_t above_half = 0; ///< finite, above HALF_MAX: clamped to it
-    float largest = 0;       ///< largest finite value given
+    uint64_t infinite = 0;     ///< +inf set to HALF_MAX, -inf to 0
+    uint64_t above_half = 0;   ///< finite, above HALF_MAX: clamped to it
+    float largest = 0;         ///< largest finite value given, 0 if none is positive
 
     uint64_t count() const { return negative + not_a_number + infinite + above_half; }
     /// One sentence for the report, empty when nothing was wrong.
@@ -29,17 +31,23 @@ struct TexelReport {
 class Environment {
 public:
     /// `radiance`: 6 * face_size * face_size * 3 floats, (face, row, column, channel).
-    /// face_size: a power of two in 1..2048. Texels are cleaned and counted, never silently.
+    /// face_size: a power of two in 1..MAX_FACE_SIZE. Texels are cleaned and counted, never silently.
     static Environment from_faces(uint32_t face_size, std::vector<float> radiance);
 
     /// `radiance`: height * width * 3 floats, OpenEXR's lat-long convention: top row latitude +90, left edge longitude
-    /// +180 falling to -180 at the right, longitude 0 (+z) in the middle, +90 at +x. Resampled by area: every lat-long
-    /// texel's energy lands in the cube texels it covers, so that a sun half a degree wide keeps its energy.
-    static Environment from_lat_long(uint32_t height, uint32_t width, const std::vector<float>& radiance, uint32_t face_size);
+    /// +180 falling to -180 at the right, longitude 0 (+z) in the middle, +90 at +x. Rows and columns are bands of equal
+    /// angle, the outer ones ending at the poles and at +-180. Each cube texel gets the exact mean over its solid angle
+    /// of the map read as constant inside its texels, so a sun keeps its energy wherever it stands and however coarse
+    /// either map is. Report: NaN, infinite, negative count lat-long texels; above_half counts cube texels.
+    static Environment from_lat_long(uint32_t height, uint32_t width, const std::vector<float>& radiance,
+                                     uint32_t face_size);
 
     uint32_t face_size() const { return face_size_; }
     const std::vector<float>& radiance() const { return radiance_; }
     const TexelReport& texel_report() const { return texel_report_; }
+
+    /// The faces as half floats, alpha 1, for upload: rounded to nearest even, nothing else. 6 N N 4 values.
+    std::vector<uint16_t> half_rgba() const;
 
     /// world_from_environment: turns the map in the world; a lookup for world direction w reads transpose(rotation) * w.
     glm::mat3 rotation{1.0f};
@@ -53,7 +61,11 @@ private:
     TexelReport texel_report_;
 };
 
-/// Unit direction through (u, v) in [-1, 1]^2 of a face, and the face and (u, v) a direction meets.
+/// Throws std::invalid_argument naming the nearest sizes unless face_size is a power of two in 1..MAX_FACE_SIZE.
+void require_face_size(uint32_t face_size);
+
+/// Unit direction through (u, v) in [-1, 1]^2 of a face, and the face and (u, v) a direction meets. On edges and corners
+/// z wins over y, and y over x, as Vulkan orders them. The direction must not be zero; it need not have unit length.
 glm::vec3 cube_direction(uint32_t face, float u, float v);
 uint32_t cube_face(const glm::vec3& direction, float& u, float& v);
 
@@ -64,7 +76,8 @@ struct HdrImage {
     std::vector<float> radiance;
 };
 
-/// Reads RLE, old RLE and flat files, headers of Photoshop included. Throws FileError (path, what was expected, what came).
+/// Reads new RLE, old RLE and flat files, headers of Photoshop included; EXPOSURE and COLORCORR are divided out, XYZE is
+/// converted to Rec. 709. Throws FileError (path, what was expected, what came).
 HdrImage read_hdr(const std::string& path);
 
 } // namespace burnish

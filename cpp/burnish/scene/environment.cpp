@@ -1,0 +1,181 @@
+#include "burnish/scene/environment.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <utility>
+
+#include "burnish/error.h"
+#include "burnish/scene/environment_texels.h"
+
+namespace burnish {
+
+namespace {
+
+// Float to half for values in [0, HALF_MAX], to nearest even. Below 2^-14 a half is subnormal, a multiple of 2^-24: adding
+// 0.5 makes the float unit round at just that step. Above, the carry of the added bits does the rounding.
+uint16_t half_bits(float value) {
+    constexpr uint32_t SMALLEST_NORMAL = 0x38800000u; // 2^-14
+    const uint32_t bits = std::bit_cast<uint32_t>(value);
+    const uint32_t subnormal = std::bit_cast<uint32_t>(value + 0.5f) - std::bit_cast<uint32_t>(0.5f);
+    const uint32_t rebased = bits - ((127u - 15u) << 23);
+    const uint32_t normal = (rebased + 0xFFFu + ((bits >> 13) & 1u)) >> 13;
+    return static_cast<uint16_t>(bits < SMALLEST_NORMAL ? subnormal : normal);
+}
+
+void append_count(std::string& text, uint64_t count, const char* fault, const char* repair) {
+    if (count > 0) {
+        text += message(text.empty() ? "" : ", ", count, " ", fault, " (", repair, ")");
+    }
+}
+
+} // namespace
+
+std::string TexelReport::sentence() const {
+    std::string faults;
+    append_count(faults, not_a_number, "not a number", "set to 0");
+    append_count(faults, infinite, "infinite", "set to 65504, or 0 if negative");
+    append_count(faults, above_half, "above half range", "clamped to 65504");
+    append_count(faults, negative, "negative", "set to 0");
+    if (faults.empty()) {
+        return {};
+    }
+    return message("environment texels repaired: ", faults, "; largest finite value given ", largest, ".");
+}
+
+void require_face_size(uint32_t face_size) {
+    if (face_size >= 1 && face_size <= MAX_FACE_SIZE && std::has_single_bit(face_size)) {
+        return;
+    }
+    const uint32_t below = std::bit_floor(std::clamp(face_size, 1u, MAX_FACE_SIZE));
+    const uint32_t above = std::bit_ceil(std::clamp(face_size, 1u, MAX_FACE_SIZE));
+    std::string nearest = message(below);
+    if (above != below) {
+        nearest += message(" or ", above);
+    }
+    throw std::invalid_argument(message("face_size: expected a power of two in 1..", MAX_FACE_SIZE, ", got ", face_size,
+                                        " (nearest: ", nearest, ")"));
+}
+
+TexelReport clean_texels(std::vector<float>& radiance, float upper_limit) {
+    TexelReport report;
+    for (size_t texel = 0; texel + 3 <= radiance.size(); texel += 3) {
+        // One comparison per channel lets good texels, nearly all of them, pass without further tests.
+        bool is_good = true;
+        for (size_t channel = texel; channel < texel + 3; ++channel) {
+            is_good = is_good && radiance[channel] >= 0.0f && radiance[channel] <= upper_limit;
+        }
+        bool has_nan = false;
+        bool has_infinity = false;
+        bool has_above = false;
+        for (size_t channel = texel; channel < texel + 3; ++channel) {
+            float& value = radiance[channel];
+            if (is_good) {
+                report.largest = std::max(report.largest, value);
+            } else if (std::isnan(value)) {
+                has_nan = true;
+                value = 0.0f;
+            } else if (std::isinf(value)) {
+                has_infinity = true;
+                value = value > 0.0f ? HALF_MAX : 0.0f;
+            } else {
+                report.largest = std::max(report.largest, value);
+                has_above = has_above || value > upper_limit;
+                value = std::clamp(value, 0.0f, upper_limit);
+            }
+        }
+        if (!is_good) {
+            uint64_t& count = has_nan        ? report.not_a_number
+                              : has_infinity ? report.infinite
+                              : has_above    ? report.above_half
+                                             : report.negative;
+            ++count;
+        }
+    }
+    return report;
+}
+
+Environment Environment::from_faces(uint32_t face_size, std::vector<float> radiance) {
+    require_face_size(face_size);
+    const size_t expected = size_t{6} * face_size * face_size * 3;
+    if (radiance.size() != expected) {
+        throw std::invalid_argument(message("radiance: expected ", expected, " floats for six faces of ", face_size, " x ",
+                                            face_size, " x 3, got ", radiance.size()));
+    }
+    Environment environment;
+    environment.face_size_ = face_size;
+    environment.radiance_ = std::move(radiance);
+    environment.texel_report_ = clean_texels(environment.radiance_, HALF_MAX);
+    return environment;
+}
+
+Environment Environment::from_lat_long(uint32_t height, uint32_t width, const std::vector<float>& radiance,
+                                       uint32_t face_size) {
+    require_face_size(face_size);
+    if (height == 0 || width == 0) {
+        throw std::invalid_argument(message("radiance: expected at least one texel, got ", height, " x ", width));
+    }
+    const size_t expected = size_t{height} * width * 3;
+    if (radiance.size() != expected) {
+        throw std::invalid_argument(message("radiance: expected ", expected, " floats for ", height, " x ", width,
+                                            " x 3, got ", radiance.size()));
+    }
+    // Values above half range stay until they are averaged: the mean over a cube texel may well fit.
+    std::vector<float> cleaned = radiance;
+    const TexelReport source = clean_texels(cleaned, std::numeric_limits<float>::max());
+    Environment environment = from_faces(face_size, cube_from_lat_long(height, width, cleaned, face_size));
+    environment.texel_report_.not_a_number += source.not_a_number;
+    environment.texel_report_.infinite += source.infinite;
+    environment.texel_report_.negative += source.negative;
+    environment.texel_report_.largest = source.largest;
+    return environment;
+}
+
+std::vector<uint16_t> Environment::half_rgba() const {
+    constexpr uint16_t HALF_ONE = 0x3C00;
+    const size_t texel_count = radiance_.size() / 3;
+    std::vector<uint16_t> half(texel_count * 4);
+    for (size_t texel = 0; texel < texel_count; ++texel) {
+        for (size_t channel = 0; channel < 3; ++channel) {
+            half[4 * texel + channel] = half_bits(radiance_[3 * texel + channel]);
+        }
+        half[4 * texel + 3] = HALF_ONE;
+    }
+    return half;
+}
+
+glm::vec3 cube_direction(uint32_t face, float u, float v) {
+    switch (face) {
+    case 0: return glm::normalize(glm::vec3(1.0f, -v, -u));
+    case 1: return glm::normalize(glm::vec3(-1.0f, -v, u));
+    case 2: return glm::normalize(glm::vec3(u, 1.0f, v));
+    case 3: return glm::normalize(glm::vec3(u, -1.0f, -v));
+    case 4: return glm::normalize(glm::vec3(u, -v, 1.0f));
+    case 5: return glm::normalize(glm::vec3(-u, -v, -1.0f));
+    default: throw std::invalid_argument(message("face: expected 0..5, got ", face));
+    }
+}
+
+uint32_t cube_face(const glm::vec3& direction, float& u, float& v) {
+    const glm::vec3 size = glm::abs(direction);
+    if (size.z >= size.x && size.z >= size.y) {
+        const bool is_positive = direction.z >= 0.0f;
+        u = (is_positive ? direction.x : -direction.x) / size.z;
+        v = -direction.y / size.z;
+        return is_positive ? 4 : 5;
+    }
+    if (size.y >= size.x) {
+        const bool is_positive = direction.y >= 0.0f;
+        u = direction.x / size.y;
+        v = (is_positive ? direction.z : -direction.z) / size.y;
+        return is_positive ? 2 : 3;
+    }
+    const bool is_positive = direction.x >= 0.0f;
+    u = (is_positive ? -direction.z : direction.z) / size.x;
+    v = -direction.y / size.x;
+    return is_positive ? 0 : 1;
+}
+
+} // namespace burnish

@@ -1,0 +1,315 @@
+// Radiance pictures: a text header, a resolution line, then scanlines of shared-exponent pixels. A scanline is stored in
+// one of three ways, told apart by its first four bytes:
+//   new RLE   2 2 and the length in two bytes, then four planes of runs; lengths 8..32767 only
+//   old RLE   four bytes a pixel, where 1 1 1 n repeats the last pixel n times; directly after another repeat, 256 n times
+//   flat      old RLE without repeats
+#include "burnish/scene/environment.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <optional>
+#include <span>
+#include <sstream>
+#include <string_view>
+
+#include "burnish/error.h"
+
+namespace burnish {
+
+namespace {
+
+// 64 megapixels are 0.8 GB of floats, and more than faces of 2048 can show.
+constexpr uint64_t MAX_PIXELS = uint64_t{1} << 26;
+// No picture of MAX_PIXELS is larger: four bytes a pixel, a few per cent of run marks, and the header.
+constexpr uint64_t MAX_FILE_BYTES = 5 * MAX_PIXELS;
+
+using Pixel = std::array<uint8_t, 4>; // red, green, blue mantissas (or X, Y, Z) and the exponent
+
+struct Header {
+    bool is_xyz = false;
+    glm::dvec3 divisor{1.0}; // product of all EXPOSURE and COLORCORR
+};
+
+// One axis of the resolution line.
+struct Axis {
+    bool is_x = false;
+    bool is_increasing = false;
+    uint32_t size = 0;
+};
+
+class HdrReader {
+public:
+    explicit HdrReader(const std::string& path) : path_(path) {
+        std::error_code error;
+        if (!std::filesystem::is_regular_file(path, error)) {
+            fail(error || !std::filesystem::exists(path, error) ? "expected a file, found none"
+                                                                : "expected a file, got something else");
+        }
+        std::ifstream stream(path, std::ios::binary);
+        if (!stream) {
+            fail("expected a readable file, cannot open it");
+        }
+        bytes_.resize(std::min<uint64_t>(std::filesystem::file_size(path), MAX_FILE_BYTES));
+        stream.read(reinterpret_cast<char*>(bytes_.data()), static_cast<std::streamsize>(bytes_.size()));
+        bytes_.resize(static_cast<size_t>(stream.gcount()));
+    }
+
+    HdrImage read() {
+        const Header header = read_header();
+        const Axis slow = read_axes();
+        HdrImage image;
+        image.width = slow.is_x ? slow.size : fast_.size;
+        image.height = slow.is_x ? fast_.size : slow.size;
+        check_size(slow.size, fast_.size);
+        image.radiance.resize(size_t{3} * image.width * image.height);
+        std::vector<Pixel> scanline(fast_.size);
+        const std::array<std::array<float, 256>, 3> scales = make_scales(header);
+        for (uint32_t i = 0; i < slow.size; ++i) {
+            read_scanline(i, slow.size, scanline);
+            store_scanline(scanline, i, slow, header.is_xyz, scales, image);
+        }
+        return image;
+    }
+
+private:
+    [[noreturn]] void fail(const std::string& reason) const { throw FileError(path_, reason); }
+
+    // A file may quote anything, so what it says is shown short and printable.
+    static std::string quoted(std::string_view text) {
+        std::string shown = "'";
+        for (const char c : text.substr(0, 40)) {
+            shown += c >= ' ' && c <= '~' ? c : '?';
+        }
+        return shown + (text.size() > 40 ? "...'" : "'");
+    }
+
+    std::string_view next_line() {
+        if (position_ >= bytes_.size()) {
+            fail("expected a resolution line such as '-Y 512 +X 1024', got the end of the file in the header");
+        }
+        const auto begin = bytes_.begin() + static_cast<std::ptrdiff_t>(position_);
+        const auto end = std::find(begin, bytes_.end(), uint8_t{'\n'});
+        std::string_view line(reinterpret_cast<const char*>(&*begin), static_cast<size_t>(end - begin));
+        position_ += line.size() + 1;
+        if (!line.empty() && line.back() == '\r') {
+            line.remove_suffix(1);
+        }
+        return line;
+    }
+
+    static bool is_resolution(std::string_view line) {
+        return line.size() > 2 && (line[0] == '-' || line[0] == '+') && (line[1] == 'X' || line[1] == 'Y');
+    }
+
+    Header read_header() {
+        const std::string_view magic = next_line();
+        if (!magic.starts_with("#?")) {
+            fail("expected a Radiance picture starting with '#?', got " + quoted(magic));
+        }
+        Header header;
+        while (true) {
+            const size_t line_start = position_;
+            const std::string_view line = next_line();
+            if (line.empty()) {
+                return header;
+            }
+            if (is_resolution(line)) { // some writers forget the empty line
+                position_ = line_start;
+                return header;
+            }
+            read_variable(line, header);
+        }
+    }
+
+    void read_variable(std::string_view line, Header& header) const {
+        const auto value_of = [&](std::string_view name) -> std::optional<std::string> {
+            return line.starts_with(name) ? std::optional(std::string(line.substr(name.size()))) : std::nullopt;
+        };
+        if (const auto format = value_of("FORMAT=")) {
+            const std::string_view name = std::string_view(*format).substr(std::min(format->find_first_not_of(' '),
+                                                                                    format->size()));
+            header.is_xyz = name.starts_with("32-bit_rle_xyze");
+            if (!header.is_xyz && !name.starts_with("32-bit_rle_rgbe")) {
+                fail("FORMAT: expected 32-bit_rle_rgbe or 32-bit_rle_xyze, got " + quoted(name));
+            }
+        } else if (const auto exposure = value_of("EXPOSURE=")) {
+            std::istringstream text(*exposure);
+            double factor = 0.0;
+            text >> factor;
+            header.divisor *= checked_factor("EXPOSURE", factor, *exposure);
+        } else if (const auto correction = value_of("COLORCORR=")) {
+            std::istringstream text(*correction);
+            glm::dvec3 factor(0.0);
+            text >> factor.x >> factor.y >> factor.z;
+            for (int channel = 0; channel < 3; ++channel) {
+                header.divisor[channel] *= checked_factor("COLORCORR", factor[channel], *correction);
+            }
+        }
+    }
+
+    double checked_factor(const char* name, double factor, const std::string& text) const {
+        if (!(factor >= 1e-30 && factor <= 1e30)) {
+            fail(message(name, ": expected a positive number in 1e-30..1e30, got ", quoted(text)));
+        }
+        return factor;
+    }
+
+    // Sets the fast axis, along a scanline, and returns the slow one.
+    Axis read_axes() {
+        const std::string_view line = next_line();
+        std::istringstream text{std::string(line)};
+        std::array<Axis, 2> axes;
+        bool is_good = true;
+        for (Axis& axis : axes) {
+            std::string name;
+            int64_t size = 0;
+            text >> name >> size;
+            is_good = is_good && text && name.size() == 2 && is_resolution(name + " ") && size >= 1 && size <= 1'000'000;
+            if (is_good) {
+                axis = {.is_x = name[1] == 'X', .is_increasing = name[0] == '+', .size = static_cast<uint32_t>(size)};
+            }
+        }
+        if (!is_good || axes[0].is_x == axes[1].is_x) {
+            fail("expected a resolution line such as '-Y 512 +X 1024' with sizes in 1..1000000, got " + quoted(line));
+        }
+        fast_ = axes[1];
+        return axes[0];
+    }
+
+    void check_size(uint32_t scanline_count, uint32_t scanline_size) const {
+        const uint64_t pixel_count = uint64_t{scanline_count} * scanline_size;
+        if (pixel_count > MAX_PIXELS) {
+            fail(message("expected at most ", MAX_PIXELS, " pixels, got ", scanline_count, " scanlines of ", scanline_size));
+        }
+        // The tightest scanline is one pixel and one repeat.
+        const uint64_t needed = uint64_t{scanline_count} * (scanline_size > 1 ? 8 : 4);
+        if (bytes_left() < needed) {
+            fail(message("expected at least ", needed, " bytes for ", scanline_count, " scanlines of ", scanline_size,
+                         " pixels, got ", bytes_left()));
+        }
+    }
+
+    uint64_t bytes_left() const { return bytes_.size() - std::min<uint64_t>(position_, bytes_.size()); }
+
+    void read_scanline(uint32_t index, uint32_t count, std::span<Pixel> scanline) {
+        const auto where = [&] { return message("scanline ", index, " of ", count); };
+        const size_t width = scanline.size();
+        const uint8_t* next = bytes_.data() + position_;
+        if (width >= 8 && width < 32768 && bytes_left() >= 4 && next[0] == 2 && next[1] == 2 && next[2] < 128) {
+            const size_t declared = (size_t{next[2]} << 8) | next[3];
+            if (declared != width) {
+                fail(message(where(), ": expected ", width, " pixels, got a run-length mark for ", declared));
+            }
+            position_ += 4;
+            for (size_t plane = 0; plane < 4; ++plane) {
+                read_plane(plane, scanline, where);
+            }
+        } else {
+            read_pixels(scanline, where);
+        }
+    }
+
+    template <typename Where>
+    void read_plane(size_t plane, std::span<Pixel> scanline, const Where& where) {
+        const uint8_t* next = bytes_.data() + position_;
+        const uint8_t* const end = bytes_.data() + bytes_.size();
+        size_t filled = 0;
+        while (filled < scanline.size()) {
+            const size_t code = next < end ? *next++ : 0;
+            const bool is_run = code > 128;
+            const size_t length = is_run ? code - 128 : code;
+            const size_t stored = is_run ? 1 : length;
+            if (length == 0 || length > scanline.size() - filled || stored > static_cast<size_t>(end - next)) {
+                fail(message(where(), ": expected ", scanline.size(), " bytes in channel ", plane, ", got ",
+                             next == end || stored > static_cast<size_t>(end - next) ? "the end of the file after "
+                                                                                     : "a broken run after ",
+                             filled));
+            }
+            for (size_t i = 0; i < length; ++i) {
+                scanline[filled + i][plane] = is_run ? *next : next[i];
+            }
+            next += stored;
+            filled += length;
+        }
+        position_ = static_cast<size_t>(next - bytes_.data());
+    }
+
+    template <typename Where>
+    void read_pixels(std::span<Pixel> scanline, const Where& where) {
+        size_t filled = 0;
+        uint32_t repeat_shift = 0;
+        while (filled < scanline.size()) {
+            if (bytes_left() < 4) {
+                fail(message(where(), ": expected ", scanline.size(), " pixels, got the end of the file after ", filled));
+            }
+            Pixel pixel;
+            std::copy_n(bytes_.data() + position_, 4, pixel.begin());
+            position_ += 4;
+            if (pixel[0] != 1 || pixel[1] != 1 || pixel[2] != 1) {
+                scanline[filled++] = pixel;
+                repeat_shift = 0;
+                continue;
+            }
+            const size_t length = repeat_shift < 24 ? size_t{pixel[3]} << repeat_shift : scanline.size() + 1;
+            if (filled == 0 || length > scanline.size() - filled) {
+                fail(message(where(), ": expected ", scanline.size(), " pixels, got a repeat of ", length, " after ", filled));
+            }
+            std::fill_n(scanline.begin() + static_cast<std::ptrdiff_t>(filled), length, scanline[filled - 1]);
+            filled += length;
+            repeat_shift += 8;
+        }
+    }
+
+    // value = mantissa 2^(exponent - 136) / divisor; exponent 0 is black.
+    static std::array<std::array<float, 256>, 3> make_scales(const Header& header) {
+        std::array<std::array<float, 256>, 3> scales{};
+        for (size_t channel = 0; channel < 3; ++channel) {
+            const auto factor = static_cast<float>(1.0 / header.divisor[static_cast<int>(channel)]);
+            for (int exponent = 1; exponent < 256; ++exponent) {
+                scales[channel][static_cast<size_t>(exponent)] = std::ldexp(1.0f, exponent - 136) * factor;
+            }
+        }
+        return scales;
+    }
+
+    void store_scanline(std::span<const Pixel> scanline, uint32_t index, const Axis& slow, bool is_xyz,
+                        const std::array<std::array<float, 256>, 3>& scales, HdrImage& image) const {
+        // CIE XYZ to linear Rec. 709 with white D65, columns as GLM has them (IEC 61966-2-1, inverted).
+        const glm::mat3 rgb_from_xyz(3.2404542f, -0.9692660f, 0.0556434f, -1.5371385f, 1.8760108f, -0.2040259f,
+                                     -0.4985314f, 0.0415560f, 1.0572252f);
+        for (uint32_t j = 0; j < fast_.size; ++j) {
+            const Axis& axis_x = slow.is_x ? slow : fast_;
+            const Axis& axis_y = slow.is_x ? fast_ : slow;
+            const uint32_t x = slow.is_x ? index : j;
+            const uint32_t y = slow.is_x ? j : index;
+            // x grows to the right, y upward: -Y means that the first row is the top one.
+            const size_t column = axis_x.is_increasing ? x : axis_x.size - 1 - x;
+            const size_t row = axis_y.is_increasing ? axis_y.size - 1 - y : y;
+            const Pixel& pixel = scanline[j];
+            glm::vec3 value(pixel[0] * scales[0][pixel[3]], pixel[1] * scales[1][pixel[3]], pixel[2] * scales[2][pixel[3]]);
+            if (is_xyz) {
+                value = rgb_from_xyz * value;
+            }
+            float* stored = image.radiance.data() + 3 * (row * image.width + column);
+            stored[0] = value.x;
+            stored[1] = value.y;
+            stored[2] = value.z;
+        }
+    }
+
+    std::string path_;
+    std::vector<uint8_t> bytes_;
+    size_t position_ = 0;
+    Axis fast_;
+};
+
+} // namespace
+
+HdrImage read_hdr(const std::string& path) {
+    return HdrReader(path).read();
+}
+
+} // namespace burnish

@@ -1,0 +1,380 @@
+#include "burnish/scene/environment.h"
+
+#include <array>
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+#include <numbers>
+
+#include <unistd.h>
+
+#include <gtest/gtest.h>
+
+#include "burnish/error.h"
+
+namespace burnish {
+namespace {
+
+constexpr double PI = std::numbers::pi;
+
+double texel_solid_angle(uint32_t face_size, uint32_t row, uint32_t column) {
+    const auto corner = [&](uint32_t i, uint32_t j) {
+        const double u = 2.0 * j / face_size - 1.0;
+        const double v = 2.0 * i / face_size - 1.0;
+        return std::atan2(u * v, std::sqrt(1.0 + u * u + v * v));
+    };
+    return corner(row + 1, column + 1) - corner(row, column + 1) - corner(row + 1, column) + corner(row, column);
+}
+
+// Integral of the first channel over the sphere.
+double cube_energy(const Environment& environment) {
+    const uint32_t n = environment.face_size();
+    double energy = 0.0;
+    for (uint32_t face = 0; face < 6; ++face) {
+        for (uint32_t row = 0; row < n; ++row) {
+            for (uint32_t column = 0; column < n; ++column) {
+                energy += texel_solid_angle(n, row, column) * environment.radiance()[3 * ((face * n + row) * n + column)];
+            }
+        }
+    }
+    return energy;
+}
+
+double lat_long_energy(uint32_t height, uint32_t width, const std::vector<float>& radiance) {
+    double energy = 0.0;
+    for (uint32_t row = 0; row < height; ++row) {
+        const double band = std::sin(PI * (0.5 - double(row) / height)) - std::sin(PI * (0.5 - double(row + 1) / height));
+        for (uint32_t column = 0; column < width; ++column) {
+            energy += band * 2.0 * PI / width * radiance[3 * (row * width + column)];
+        }
+    }
+    return energy;
+}
+
+glm::dvec3 lat_long_direction(uint32_t height, uint32_t width, double row, double column) {
+    const double latitude = PI * (0.5 - (row + 0.5) / height);
+    const double longitude = PI * (1.0 - 2.0 * (column + 0.5) / width);
+    return {std::cos(latitude) * std::sin(longitude), std::sin(latitude), std::cos(latitude) * std::cos(longitude)};
+}
+
+std::vector<float> lat_long_sun(uint32_t height, uint32_t width, const glm::dvec3& center, double diameter_degrees) {
+    std::vector<float> radiance(size_t{3} * height * width, 0.01f);
+    const double cos_radius = std::cos(0.5 * diameter_degrees * PI / 180.0);
+    for (uint32_t row = 0; row < height; ++row) {
+        for (uint32_t column = 0; column < width; ++column) {
+            if (glm::dot(lat_long_direction(height, width, row, column), center) < 0.998) {
+                continue; // far from the sun
+            }
+            // Coverage by 8 x 8 points: the sun of the map itself is smooth-edged, as a photograph's is.
+            int inside = 0;
+            for (int i = 0; i < 64; ++i) {
+                const double y = row + (i / 8 + 0.5) / 8.0 - 0.5;
+                const double x = column + (i % 8 + 0.5) / 8.0 - 0.5;
+                inside += glm::dot(lat_long_direction(height, width, y, x), center) > cos_radius ? 1 : 0;
+            }
+            for (int channel = 0; channel < 3; ++channel) {
+                radiance[3 * (row * width + column) + static_cast<uint32_t>(channel)] +=
+                    50000.0f * static_cast<float>(inside) / 64.0f;
+            }
+        }
+    }
+    return radiance;
+}
+
+// Writes bytes to a file of the test's own that goes away with it.
+class TemporaryFile {
+public:
+    explicit TemporaryFile(const std::string& bytes) {
+        std::string name = (std::filesystem::temp_directory_path() / "burnish-hdr-XXXXXX").string();
+        const int file = mkstemp(name.data());
+        path = name;
+        std::ofstream(path, std::ios::binary).write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+        if (file >= 0) {
+            ::close(file);
+        }
+    }
+    ~TemporaryFile() { std::filesystem::remove(path); }
+    TemporaryFile(const TemporaryFile&) = delete;
+    TemporaryFile& operator=(const TemporaryFile&) = delete;
+    std::string path;
+};
+
+HdrImage read_bytes(const std::string& bytes) {
+    const TemporaryFile file(bytes);
+    return read_hdr(file.path);
+}
+
+std::string hdr_error(const std::string& bytes) {
+    try {
+        read_bytes(bytes);
+    } catch (const FileError& error) {
+        return error.what();
+    }
+    return "no error";
+}
+
+const std::string HEADER = "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n";
+
+// A pixel of grey level mantissa / 256.
+std::string grey(uint8_t mantissa) {
+    const char c = static_cast<char>(mantissa);
+    return {c, c, c, static_cast<char>(128)};
+}
+
+TEST(LatLong, ConstantMapStaysConstant) {
+    for (const uint32_t face_size : {1u, 2u, 4u, 32u, 128u}) {
+        for (const auto& [height, width] : std::array<std::pair<uint32_t, uint32_t>, 4>{{{1, 1}, {3, 5}, {64, 128}, {77, 150}}}) {
+            const std::vector<float> radiance(size_t{3} * height * width, 2.5f);
+            const Environment environment = Environment::from_lat_long(height, width, radiance, face_size);
+            for (const float value : environment.radiance()) {
+                ASSERT_NEAR(value, 2.5f, 1e-6f) << face_size << " from " << height << " x " << width;
+            }
+        }
+    }
+}
+
+TEST(LatLong, SunKeepsItsEnergyWhereverItStands) {
+    const double seam = 1.0 / std::sqrt(2.0);
+    const double corner = 1.0 / std::sqrt(3.0);
+    const std::array<glm::dvec3, 9> centers = {{{0, 1, 0},
+                                                {0, -1, 0},
+                                                {0, 0, -1},
+                                                {seam, 0, seam},
+                                                {corner, corner, -corner},
+                                                {0, seam, seam},
+                                                {0.01, 0.99995, 0},
+                                                {0.36, 0.48, 0.8},
+                                                {-0.6, -0.64, 0.48}}};
+    for (const glm::dvec3& center : centers) {
+        const std::vector<float> radiance = lat_long_sun(256, 512, glm::normalize(center), 0.5);
+        const double expected = lat_long_energy(256, 512, radiance);
+        for (const uint32_t face_size : {1u, 8u, 64u, 128u, 512u}) {
+            const Environment environment = Environment::from_lat_long(256, 512, radiance, face_size);
+            EXPECT_NEAR(cube_energy(environment) / expected, 1.0, 1e-6)
+                << "sun at " << center.x << " " << center.y << " " << center.z << ", faces of " << face_size;
+        }
+    }
+}
+
+TEST(LatLong, AxesLandOnTheirFaces) {
+    // One lit texel column and row around each axis; longitude falls to the right, 0 in the middle.
+    const uint32_t height = 64;
+    const uint32_t width = 128;
+    const std::array<std::pair<uint32_t, uint32_t>, 6> texels = {{{32, 32}, {32, 96}, {0, 0}, {63, 0}, {32, 64}, {32, 0}}};
+    for (uint32_t face = 0; face < 6; ++face) {
+        std::vector<float> radiance(size_t{3} * height * width, 0.0f);
+        for (uint32_t column = 0; column < width; ++column) {
+            if (column == texels[face].second || face == 2 || face == 3) {
+                radiance[3 * (texels[face].first * width + column)] = 1.0f;
+            }
+        }
+        const Environment environment = Environment::from_lat_long(height, width, radiance, 16);
+        for (uint32_t other = 0; other < 6; ++other) {
+            float sum = 0.0f;
+            for (uint32_t i = 0; i < 16 * 16; ++i) {
+                sum += environment.radiance()[3 * (other * 256 + i)];
+            }
+            EXPECT_EQ(sum > 1e-9f, other == face) // rounding leaves less than that
+                << "axis " << face << " on face " << other;
+        }
+    }
+}
+
+TEST(LatLong, TexelMeansAgreeWithBruteForce) {
+    const uint32_t height = 24;
+    const uint32_t width = 48;
+    std::vector<float> radiance(size_t{3} * height * width);
+    for (size_t i = 0; i < radiance.size(); ++i) {
+        radiance[i] = static_cast<float>((i * 2654435761u) % 1000) / 100.0f;
+    }
+    const uint32_t n = 8;
+    const uint32_t steps = 200;
+    const Environment environment = Environment::from_lat_long(height, width, radiance, n);
+    for (uint32_t face = 0; face < 6; ++face) {
+        for (const uint32_t texel : {0u, 9u, 27u, 36u, 63u}) {
+            const uint32_t row = texel / n;
+            const uint32_t column = texel % n;
+            double sum = 0.0;
+            double weight_sum = 0.0;
+            for (uint32_t i = 0; i < steps * steps; ++i) {
+                const double u = 2.0 * (column + (i % steps + 0.5) / steps) / n - 1.0;
+                const double v = 2.0 * (row + (i / steps + 0.5) / steps) / n - 1.0;
+                const glm::vec3 d = cube_direction(face, static_cast<float>(u), static_cast<float>(v));
+                const double weight = std::pow(1.0 + u * u + v * v, -1.5);
+                const double y = (0.5 - std::asin(double(d.y)) / PI) * height;
+                const double x = (0.5 - std::atan2(double(d.x), double(d.z)) / (2.0 * PI)) * width;
+                const uint32_t source_row = std::min(static_cast<uint32_t>(y), height - 1);
+                const uint32_t source_column = std::min(static_cast<uint32_t>(x), width - 1);
+                sum += weight * radiance[3 * (source_row * width + source_column) + 1];
+                weight_sum += weight;
+            }
+            EXPECT_NEAR(environment.radiance()[3 * (face * n * n + texel) + 1], sum / weight_sum, 0.02) // points err by a step, 1/200, at edges
+                << "face " << face << " texel " << texel;
+        }
+    }
+}
+
+TEST(Environment, FaultyTexelsAreCountedAndRepaired) {
+    std::vector<float> radiance(size_t{6} * 4 * 3, 1.0f);
+    radiance[0] = std::numeric_limits<float>::quiet_NaN();
+    radiance[1] = -1.0f; // the same texel: counts once
+    radiance[3] = std::numeric_limits<float>::infinity();
+    radiance[6] = -std::numeric_limits<float>::infinity();
+    radiance[9] = 1e6f;
+    radiance[12] = -0.5f;
+    const Environment environment = Environment::from_faces(2, radiance);
+    const TexelReport& report = environment.texel_report();
+    EXPECT_EQ(report.not_a_number, 1u);
+    EXPECT_EQ(report.infinite, 2u);
+    EXPECT_EQ(report.above_half, 1u);
+    EXPECT_EQ(report.negative, 1u);
+    EXPECT_EQ(report.count(), 5u);
+    EXPECT_EQ(report.largest, 1e6f);
+    EXPECT_EQ(environment.radiance()[0], 0.0f);
+    EXPECT_EQ(environment.radiance()[1], 0.0f);
+    EXPECT_EQ(environment.radiance()[2], 1.0f);
+    EXPECT_EQ(environment.radiance()[3], HALF_MAX);
+    EXPECT_EQ(environment.radiance()[6], 0.0f);
+    EXPECT_EQ(environment.radiance()[9], HALF_MAX);
+    EXPECT_EQ(environment.radiance()[12], 0.0f);
+    EXPECT_NE(report.sentence().find("1 above half range (clamped to 65504)"), std::string::npos) << report.sentence();
+    EXPECT_EQ(TexelReport{}.sentence(), "");
+}
+
+TEST(Environment, FaceSizeErrorNamesTheNearest) {
+    try {
+        Environment::from_faces(100, std::vector<float>(size_t{6} * 100 * 100 * 3));
+        FAIL();
+    } catch (const std::invalid_argument& error) {
+        EXPECT_STREQ(error.what(), "face_size: expected a power of two in 1..2048, got 100 (nearest: 64 or 128)");
+    }
+    EXPECT_THROW(require_face_size(0), std::invalid_argument);
+    EXPECT_THROW(require_face_size(4096), std::invalid_argument);
+    EXPECT_NO_THROW(require_face_size(1));
+    EXPECT_NO_THROW(require_face_size(2048));
+}
+
+TEST(Environment, HalvesAreTheNearestEven) {
+    std::vector<float> radiance(size_t{6} * 64 * 64 * 3);
+    for (size_t i = 0; i < radiance.size(); ++i) { // every exponent of a half and its subnormals, many mantissas
+        radiance[i] = std::ldexp(1.0f + static_cast<float>((i * 7919) % 8192) / 8192.0f, static_cast<int>(i % 42) - 27);
+    }
+    radiance[0] = 0.0f;
+    radiance[1] = HALF_MAX;
+    radiance[2] = 1.0f + 1.0f / 2048.0f; // halfway: to even
+    const Environment environment = Environment::from_faces(64, radiance);
+    const std::vector<uint16_t> half = environment.half_rgba();
+    for (size_t i = 0; i < radiance.size(); ++i) {
+        const float value = environment.radiance()[i];
+        const uint16_t bits = half[4 * (i / 3) + i % 3];
+        int exponent = 0;
+        std::frexp(value, &exponent);
+        const double step = std::ldexp(1.0, std::max(exponent - 11, -24));
+        const double expected = std::nearbyint(double(value) / step) * step; // to even, in the default rounding mode
+        const int half_exponent = bits >> 10;
+        const double decoded = half_exponent == 0 ? std::ldexp(bits & 1023, -24)
+                                                  : std::ldexp(1024 + (bits & 1023), half_exponent - 25);
+        ASSERT_EQ(decoded, expected) << value;
+    }
+    EXPECT_EQ(half[3], 0x3C00);
+    EXPECT_EQ(half[1], 0x7BFF);
+    EXPECT_EQ(half[2], 0x3C00);
+}
+
+TEST(Cube, DirectionAndFaceAreInverse) {
+    for (uint32_t face = 0; face < 6; ++face) {
+        for (const float a : {-0.99f, -0.3f, 0.0f, 0.7f}) {
+            float u = 0.0f;
+            float v = 0.0f;
+            EXPECT_EQ(cube_face(2.0f * cube_direction(face, a, 0.5f * a + 0.1f), u, v), face);
+            EXPECT_NEAR(u, a, 1e-6f);
+            EXPECT_NEAR(v, 0.5f * a + 0.1f, 1e-6f);
+        }
+    }
+}
+
+TEST(ReadHdr, FlatAndOldRleAndNewRleGiveTheSame) {
+    const std::string flat = HEADER + "-Y 1 +X 10\n" + grey(7) + grey(7) + grey(7) + grey(7) + grey(7) + grey(7) + grey(7) +
+                             grey(7) + grey(7) + grey(9);
+    const std::string repeat = {1, 1, 1, 8};
+    const std::string old_rle = HEADER + "-Y 1 +X 10\n" + grey(7) + repeat + grey(9);
+    std::string new_rle = HEADER + "-Y 1 +X 10\n" + std::string("\x02\x02\x00\x0a", 4);
+    for (int plane = 0; plane < 3; ++plane) {
+        new_rle += std::string("\x89\x07\x01\x09", 4);
+    }
+    new_rle += "\x8a\x80";
+    const HdrImage image = read_bytes(flat);
+    EXPECT_EQ(image.width, 10u);
+    EXPECT_EQ(image.height, 1u);
+    EXPECT_FLOAT_EQ(image.radiance[0], 7.0f / 256.0f);
+    EXPECT_FLOAT_EQ(image.radiance[29], 9.0f / 256.0f);
+    EXPECT_EQ(read_bytes(old_rle).radiance, image.radiance);
+    EXPECT_EQ(read_bytes(new_rle).radiance, image.radiance);
+}
+
+TEST(ReadHdr, EveryOrientationComesOutTopDown) {
+    // The picture, top-down: 1 2 3 / 4 5 6.
+    const std::array<std::pair<std::string, std::array<uint8_t, 6>>, 8> cases = {{{"-Y 2 +X 3", {1, 2, 3, 4, 5, 6}},
+                                                                                 {"-Y 2 -X 3", {3, 2, 1, 6, 5, 4}},
+                                                                                 {"+Y 2 +X 3", {4, 5, 6, 1, 2, 3}},
+                                                                                 {"+Y 2 -X 3", {6, 5, 4, 3, 2, 1}},
+                                                                                 {"+X 3 -Y 2", {1, 4, 2, 5, 3, 6}},
+                                                                                 {"-X 3 -Y 2", {3, 6, 2, 5, 1, 4}},
+                                                                                 {"+X 3 +Y 2", {4, 1, 5, 2, 6, 3}},
+                                                                                 {"-X 3 +Y 2", {6, 3, 5, 2, 4, 1}}}};
+    for (const auto& [resolution, stored] : cases) {
+        std::string bytes = HEADER + resolution + "\n";
+        for (const uint8_t value : stored) {
+            bytes += grey(static_cast<uint8_t>(16 * value));
+        }
+        const HdrImage image = read_bytes(bytes);
+        ASSERT_EQ(image.width, 3u) << resolution;
+        ASSERT_EQ(image.height, 2u) << resolution;
+        for (size_t i = 0; i < 6; ++i) {
+            EXPECT_FLOAT_EQ(image.radiance[3 * i], static_cast<float>(i + 1) / 16.0f) << resolution << " texel " << i;
+        }
+    }
+}
+
+TEST(ReadHdr, HeadersOfOtherWritersAreRead) {
+    const std::string pixel = grey(128);
+    const std::string photoshop = "#?RADIANCE\r\n# Made with Adobe Photoshop\r\n#?RADIANCE\r\nGAMMA=1\r\n"
+                                  "PRIMARIES=0 0 0 0 0 0 0 0\r\nFORMAT=32-bit_rle_rgbe\r\n\r\n-Y 1 +X 1\r\n";
+    EXPECT_FLOAT_EQ(read_bytes(photoshop + pixel).radiance[0], 0.5f);
+    const std::string exposed = "#?RGBE\nEXPOSURE=2\nEXPOSURE= 4.0\nCOLORCORR= 1 2 4\n\n-Y 1 +X 1\n";
+    const HdrImage image = read_bytes(exposed + pixel);
+    EXPECT_FLOAT_EQ(image.radiance[0], 0.5f / 8.0f);
+    EXPECT_FLOAT_EQ(image.radiance[1], 0.5f / 16.0f);
+    EXPECT_FLOAT_EQ(image.radiance[2], 0.5f / 32.0f);
+    const std::string xyz = "#?RADIANCE\nFORMAT=32-bit_rle_xyze\n\n-Y 1 +X 1\n";
+    const std::string white = {static_cast<char>(122), static_cast<char>(128), static_cast<char>(139), static_cast<char>(128)};
+    for (const float value : read_bytes(xyz + white).radiance) { // D65 white of luminance 0.5
+        EXPECT_NEAR(value, 0.5f, 0.01f);
+    }
+}
+
+TEST(ReadHdr, BrokenFilesAreRefusedInWords) {
+    const std::array<std::pair<std::string, std::string>, 9> cases = {{
+        {"", "got the end of the file in the header"},
+        {"hello\n", "expected a Radiance picture starting with '#?', got 'hello'"},
+        {"#?RADIANCE\nFORMAT=float\n\n", "FORMAT: expected 32-bit_rle_rgbe or 32-bit_rle_xyze, got 'float'"},
+        {"#?RADIANCE\nEXPOSURE=0\n\n", "EXPOSURE: expected a positive number in 1e-30..1e30, got '0'"},
+        {HEADER + "-Y4 +X8888888A'8\n", "sizes in 1..1000000, got '-Y4 +X8888888A'8'"},
+        {HEADER + "-Y 1000000 +X 1000000\n", "expected at most 67108864 pixels, got 1000000 scanlines of 1000000"},
+        {HEADER + "-Y 1000 +X 1000\n" + grey(5), "expected at least 8000 bytes for 1000 scanlines of 1000 pixels, got 4"},
+        {HEADER + "-Y 2 +X 3\n" + grey(5) + grey(5) + grey(5) + grey(5) + grey(5),
+         "scanline 1 of 2: expected 3 pixels, got the end of the file after 2"},
+        {HEADER + "-Y 1 +X 10\n" + std::string("\x02\x02\x00\x0a\xff\x07\x00\x00", 8),
+         "scanline 0 of 1: expected 10 bytes in channel 0, got a broken run after 0"},
+    }};
+    for (const auto& [bytes, expected] : cases) {
+        EXPECT_NE(hdr_error(bytes).find(expected), std::string::npos) << hdr_error(bytes);
+    }
+    EXPECT_THROW(read_hdr("/nonexistent/sky.hdr"), FileError);
+    EXPECT_THROW(read_hdr("/"), FileError);
+}
+
+} // namespace
+} // namespace burnish
