@@ -51,6 +51,9 @@ struct ImageRegion {
     uint32_t width = 0, height = 0; // 0 = up to the level's edge
 };
 
+/// The region with "up to the edge" spelled out. Throws std::invalid_argument if it leaves the image.
+ImageRegion resolve_region(const Image& image, ImageRegion region);
+
 struct PassTime {
     std::string name;
     double milliseconds = 0; // 0 where the device has no timestamps
@@ -122,13 +125,14 @@ public:
     VkCommandBuffer handle() const { return frame_.commands; }
 
 private:
-    template <typename Pipeline>
-    void bind(const Pipeline& pipeline, const DescriptorSet& set, std::span<const std::byte> push);
+    void bind(const PipelineInterface& interface, VkPipeline pipeline, const DescriptorSet& set,
+              std::span<const std::byte> push);
     void push(const PipelineInterface& interface, std::span<const std::byte> bytes);
     void require(bool condition, const char* text) const;
     void require_outside_rendering(const char* what) const;
     void use_for_transfer(Image& image, VkImageLayout layout);
-    void write_timestamp(VkPipelineStageFlags2 stage);
+    void record_barrier(const VkImageMemoryBarrier2* image);
+    void write_timestamp(std::size_t query);
     void read_timestamps();
 
     struct LayoutChange {
@@ -140,7 +144,7 @@ private:
     CommandFrame frame_;
     std::vector<LayoutChange> layout_changes_;
     std::vector<PassTime> passes_;
-    const PipelineInterface* graphics_ = nullptr;
+    std::shared_ptr<const PipelineInterface> graphics_; // of the pipeline bound last
     bool is_rendering_ = false, is_in_pass_ = false, is_submitted_ = false;
 };
 

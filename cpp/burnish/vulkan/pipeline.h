@@ -3,8 +3,6 @@
 
 #include "burnish/vulkan/shader.h"
 
-#include <optional>
-
 namespace burnish::vulkan {
 
 /// What a pipeline expects to be bound: the union of its shaders' bindings and push constants.
@@ -17,6 +15,9 @@ struct PipelineInterface {
     Handle<VkDescriptorSetLayout, vkDestroyDescriptorSetLayout> set_layout;
     Handle<VkPipelineLayout, vkDestroyPipelineLayout> layout;
 };
+
+/// True if a descriptor set made for one can be used with the other.
+bool is_same_layout(const PipelineInterface& a, const PipelineInterface& b);
 
 class ComputePipeline {
 public:
