@@ -1,0 +1,72 @@
+"""Orthonormal frames about a normal, and directions packed into a square."""
+
+import numpy as np
+import numpy.typing as npt
+
+from .arrays import Array, as_array, dot, normalize
+
+#: A tangent whose part across the normal is shorter than this share of its length counts as parallel to it.
+PARALLEL_LIMIT = 1e-6
+
+
+def orthonormal_basis(n: npt.ArrayLike) -> tuple[Array, Array]:
+    """Tangent and bitangent of a unit normal, without a singular direction (Duff et al. 2017).
+
+    Parameters
+    ----------
+    n : (..., 3)
+        Unit normals.
+
+    Returns
+    -------
+    tangent, bitangent : (..., 3)
+        Right-handed: cross(tangent, bitangent) = n.
+    """
+    x, y, z = np.moveaxis(as_array(n), -1, 0)
+    sign = np.copysign(1.0, z)
+    a = -1.0 / (sign + z)
+    b = x * y * a
+    tangent = np.stack([1 + sign * x * x * a, sign * b, -sign * x], axis=-1)
+    bitangent = np.stack([b, sign + y * y * a, -y], axis=-1)
+    return tangent, bitangent
+
+
+def frame_from_tangent(n: npt.ArrayLike, t: npt.ArrayLike) -> tuple[Array, Array]:
+    """Tangent made orthogonal to the unit normal, and bitangent cross(n, t).
+
+    Gram-Schmidt runs twice, since after one step a tangent almost parallel to the normal keeps a share of it.
+    A tangent that is zero, not finite or parallel to the normal is replaced by that of `orthonormal_basis`.
+    """
+    n, t = np.broadcast_arrays(as_array(n), as_array(t))
+    finite = np.all(np.isfinite(t), axis=-1, keepdims=True)
+    t = normalize(np.where(finite, t, 0.0))
+    across = t - dot(t, n)[..., None] * n
+    usable = np.linalg.norm(across, axis=-1, keepdims=True) > PARALLEL_LIMIT
+    across = normalize(across)
+    across = normalize(across - dot(across, n)[..., None] * n)
+    tangent = np.where(usable, across, orthonormal_basis(n)[0])
+    return tangent, np.cross(n, tangent)
+
+
+def rotate_frame(tangent: npt.ArrayLike, bitangent: npt.ArrayLike, angle: float) -> tuple[Array, Array]:
+    """Turn a frame counter-clockwise about its normal by `angle` radians."""
+    tangent, bitangent = as_array(tangent), as_array(bitangent)
+    cosine, sine = np.cos(angle), np.sin(angle)
+    return cosine * tangent + sine * bitangent, cosine * bitangent - sine * tangent
+
+
+def octahedral_encode(n: npt.ArrayLike) -> Array:
+    """Unfold directions onto [-1, 1]^2: z >= 0 fills the inner diamond, z < 0 the corners around it."""
+    n = as_array(n)
+    p = n[..., :2] / np.sum(np.abs(n), axis=-1, keepdims=True)
+    folded = (1 - np.abs(p[..., ::-1])) * np.copysign(1.0, p)
+    result: Array = np.where(n[..., 2:] < 0, folded, p)
+    return result
+
+
+def octahedral_decode(p: npt.ArrayLike) -> Array:
+    """Unit directions of points made by `octahedral_encode`."""
+    p = as_array(p)
+    z = 1 - np.sum(np.abs(p), axis=-1, keepdims=True)
+    unfolded = (1 - np.abs(p[..., ::-1])) * np.copysign(1.0, p)
+    return normalize(np.concatenate([np.where(z < 0, unfolded, p), z], axis=-1))

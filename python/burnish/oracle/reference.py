@@ -1,0 +1,78 @@
+"""The truth of a glossy lobe: the reflectance integral as a sum over every texel of level 0."""
+
+import numpy as np
+import numpy.typing as npt
+
+from .arrays import Array, as_array
+from .cube_map import cube_direction, texel_solid_angle
+from .estimator import local_frame
+from .kurt_lobe import LobeLike, grazing_factor, schlick_fresnel, slopes
+
+# q = exp(-40) = 4e-18: such texels add nothing to a sum in float64.
+_LAST_EXPONENT = 40.0
+
+
+def subdivide(faces: npt.ArrayLike, parts: int) -> Array:
+    """Split each texel into parts x parts of the same radiance: for lobes narrower than a texel."""
+    return np.repeat(np.repeat(as_array(faces), parts, axis=1), parts, axis=2)
+
+
+def shade_reference(
+    faces: npt.ArrayLike,
+    n: npt.ArrayLike,
+    t: npt.ArrayLike,
+    omega_o: npt.ArrayLike,
+    lobe: LobeLike,
+    parts: int = 1,
+) -> Array:
+    """Radiance sum over texels of f cos_i L dw, dw the texel's exact solid angle.
+
+    The half-vector's slopes are (i + o)_xy/(i + o)_z, so q needs no normalised half-vector.
+
+    Parameters
+    ----------
+    faces : (6, N, N, 3)
+        Level 0.
+    n, t, omega_o : (..., 3)
+    parts : int
+        The lobe is evaluated at parts x parts points of each texel. One is enough while a texel (2/N radian)
+        is narrower than the narrower slope.
+
+    Returns
+    -------
+    radiance : (..., 3)
+    """
+    faces = subdivide(faces, parts)
+    size = faces.shape[1]
+    frame = local_frame(n, t, omega_o, lobe.rotation)
+    axes = np.stack([frame.tangent, frame.bitangent, frame.normal], axis=-2).reshape(-1, 3, 3)
+    views = frame.omega_o.reshape(-1, 3)
+    centers = (2 * np.arange(size) + 1) / size - 1
+    grid_u, grid_v = np.meshgrid(centers, centers)
+    energy = faces * texel_solid_angle(size)[None, :, :, None]
+    total = np.zeros((len(views), 3))
+    # One face at a time bounds memory; its texels are one matrix product per point.
+    for face in range(6):
+        directions = cube_direction(face, grid_u, grid_v).reshape(-1, 3).T
+        for k, (axis, view) in enumerate(zip(axes, views, strict=True)):
+            total[k] += _face_sum(axis @ directions, view, lobe, energy[face].reshape(-1, 3))
+    return as_array(lobe.weight) * total.reshape(*frame.omega_o.shape[:-1], 3)
+
+
+def _face_sum(omega_i: Array, omega_o: Array, lobe: LobeLike, energy: Array) -> Array:
+    above = np.flatnonzero(omega_i[2] > 0)
+    if len(above) == 0:
+        return np.zeros(3)
+    mx, my = slopes(lobe)
+    x, y, z = omega_i[:, above] + omega_o[:, None]
+    exponent = (x / (mx * z)) ** 2 + (y / (my * z)) ** 2
+    near = np.flatnonzero(exponent < _LAST_EXPONENT)
+    x, y, z = x[near], y[near], z[near]
+    length2 = x * x + y * y + z * z
+    # |i + o|^2 = 2 + 2 i.o and (o.h)^2 = (1 + i.o)/2: o.h = |i + o|/2.
+    o_h = 0.5 * np.sqrt(length2)
+    d = np.exp(-exponent[near]) * (length2 / (z * z)) ** 2 / (np.pi * mx * my)
+    value = d / (4 * o_h) * grazing_factor(omega_i[2, above[near]], omega_o[2], lobe.alpha)
+    fresnel = schlick_fresnel(o_h[:, None], np.broadcast_to(as_array(lobe.r0), 3))
+    result: Array = np.sum(value[:, None] * fresnel * energy[above[near]], axis=0)
+    return result

@@ -1,0 +1,119 @@
+"""Whole pictures and captured maps, at one sample a pixel."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from .arrays import Array, as_array, dot, normalize
+from .cube_map import pad_cube, sample_cube, texel_directions
+from .estimator import shade_diffuse
+from .raster import Camera, Hits, Object, Triangles, camera_rays, cast_rays, gather_triangles, interpolate
+from .shading import shade
+from .spherical_harmonics import project_cube
+
+
+@dataclass(frozen=True)
+class Picture:
+    """Linear radiance, coverage (0 or 1), depth along the camera's axis (infinite: nothing), world normal."""
+
+    color: Array
+    alpha: Array
+    depth: Array
+    normal: Array
+
+
+def _surface(triangles: Triangles, hits: Hits, views: Array) -> tuple[Array, Array]:
+    """Unit shading normals and tangents at the hits; seen from behind, the normal turns to the eye."""
+    normals = normalize(interpolate(triangles.normals, hits))
+    corners = triangles.corners[np.maximum(hits.triangle, 0)]
+    face = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    normals = np.where(dot(face, views)[:, None] < 0, -normals, normals)
+    return normals, interpolate(triangles.tangents, hits)
+
+
+def render(
+    objects: list[Object],
+    camera: Camera,
+    size: tuple[int, int],
+    env_levels: Sequence[npt.ArrayLike],
+    sampler: Any,
+    rotation: npt.ArrayLike | None = None,
+    exposure: float = 0.0,
+    show_background: bool = True,
+) -> Picture:
+    """Cast one ray through each pixel centre and shade what it meets.
+
+    Parameters
+    ----------
+    size : (height, width)
+    env_levels : list of (6, n, n, 3)
+        From `build_pyramid`; every object reflects this map.
+    rotation : (3, 3), optional
+        world_from_environment: a world direction w reads the map at transpose(rotation) w.
+    exposure : float
+        Stops: the map's radiance is multiplied by 2^exposure.
+    """
+    origins, directions = (a.reshape(-1, 3) for a in camera_rays(camera, size))
+    far = camera.far_plane if camera.is_orthographic else np.inf
+    triangles = gather_triangles(objects)
+    hits = cast_rays(triangles, origins, directions, camera.near_plane, far)
+    turn = np.eye(3) if rotation is None else as_array(rotation)
+    gain = 2.0**exposure
+    color = np.zeros((len(origins), 3))
+    normal = np.zeros((len(origins), 3))
+    met = hits.triangle >= 0
+    if show_background:
+        color[~met] = gain * sample_cube(env_levels, directions[~met] @ turn)
+    seen = np.flatnonzero(met)
+    if len(seen) > 0:
+        views = -normalize(directions[seen])
+        part = Hits(hits.triangle[seen], hits.depth[seen], hits.weights[seen])
+        normal[seen], tangents = _surface(triangles, part, views)
+        owner = triangles.owner[part.triangle]
+        for index in np.unique(owner):
+            own = owner == index
+            material = objects[index].material
+            pixels = seen[own]
+            in_map = (v @ turn for v in (normal[pixels], tangents[own], views[own]))
+            lit = shade(env_levels, material, sampler, *in_map)
+            emitted = as_array(getattr(material, "emissive", 0.0))
+            color[pixels] = gain * (lit - emitted) + emitted
+    alpha = met.astype(np.float64).reshape(size)
+    return Picture(color.reshape(*size, 3), alpha, hits.depth.reshape(size), normal.reshape(*size, 3))
+
+
+def capture(
+    objects: list[Object],
+    point: npt.ArrayLike,
+    face_size: int,
+    env_levels: Sequence[npt.ArrayLike],
+    without: int | None = None,
+) -> Array:
+    """Radiance that arrives at a point, (6, N, N, 3): one ray through each texel centre.
+
+    Objects show their diffuse part and what they emit; their lobes do not appear in a captured map.
+
+    Parameters
+    ----------
+    without : int, optional
+        The object left out: the one whose map this is.
+    """
+    directions = texel_directions(face_size).reshape(-1, 3)
+    origins = np.broadcast_to(as_array(point), directions.shape)
+    triangles = gather_triangles(objects, without)
+    hits = cast_rays(triangles, origins, directions)
+    radiance = sample_cube(pad_cube(env_levels), directions)
+    seen = np.flatnonzero(hits.triangle >= 0)
+    if len(seen) > 0:
+        part = Hits(hits.triangle[seen], hits.depth[seen], hits.weights[seen])
+        normals, _ = _surface(triangles, part, -directions[seen])
+        coefficients = project_cube(env_levels[0])
+        owner = triangles.owner[part.triangle]
+        for index in np.unique(owner):
+            own, material = owner == index, objects[index].material
+            diffuse = shade_diffuse(coefficients, normals[own], material.diffuse)
+            radiance[seen[own]] = diffuse + as_array(getattr(material, "emissive", 0.0))
+    return radiance.reshape(6, face_size, face_size, 3)

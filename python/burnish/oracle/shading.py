@@ -1,0 +1,49 @@
+"""A whole material at surface points: what `burnish.shade` computes."""
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from .arrays import Array, as_array
+from .cube_map import pad_cube
+from .estimator import shade_diffuse, shade_lobe
+from .reference import shade_reference
+from .spherical_harmonics import project_cube
+
+
+def shade(
+    env_levels: Sequence[npt.ArrayLike],
+    material: Any,
+    sampler: Any,
+    normals: npt.ArrayLike,
+    tangents: npt.ArrayLike,
+    views: npt.ArrayLike,
+) -> Array:
+    """Radiance toward the eye: diffuse part by spherical harmonics, lobes by the sampler, and emission.
+
+    Parameters
+    ----------
+    env_levels : list of (6, n, n, 3)
+        From `build_pyramid`.
+    material : Material, or `burnish.Material`
+    sampler : Regular, Importance or Reference, the oracle's or burnish's
+    normals, tangents, views : (..., 3)
+
+    Returns
+    -------
+    radiance : (..., 3)
+    """
+    normals, tangents, views = np.broadcast_arrays(as_array(normals), as_array(tangents), as_array(views))
+    total = np.zeros(normals.shape)
+    if np.any(as_array(material.diffuse) > 0):
+        total = total + shade_diffuse(project_cube(env_levels[0]), normals, material.diffuse)
+    if type(sampler).__name__ == "Reference":
+        for lobe in material.lobes:
+            total = total + shade_reference(env_levels[0], normals, tangents, views, lobe)
+    elif material.lobes:
+        cube = pad_cube(env_levels)
+        for lobe in material.lobes:
+            total = total + shade_lobe(cube, normals, tangents, views, lobe, sampler)
+    return total + as_array(getattr(material, "emissive", 0.0))
