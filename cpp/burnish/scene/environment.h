@@ -54,6 +54,7 @@ public:
     /// Multiplies the radiance, in stops (factor 2^exposure). Applied when the map is looked up.
     float exposure = 0.0f;
     std::string name;
+    std::vector<std::string> notes; ///< what was done to the map on its way here, a sentence each, for the report
 
 private:
     uint32_t face_size_ = 0;
