@@ -17,4 +17,11 @@ struct Camera {
     float far_plane = 1000.0f;    ///< orthographic only
 };
 
+/// A perspective camera at `eye` that looks at `target`, `up` upward in its picture.
+/// Throws std::invalid_argument where the three do not span a view.
+Camera look_at(const glm::vec3& eye, const glm::vec3& target, const glm::vec3& up);
+
+/// Throws std::invalid_argument, naming field, rule and value, unless every number is in its documented range.
+void validate(const Camera& camera);
+
 } // namespace burnish

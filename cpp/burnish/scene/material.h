@@ -71,6 +71,9 @@ struct Material {
     std::optional<MetallicRoughness> source;
 };
 
+/// Throws std::invalid_argument, naming field, range and value; `prefix` goes before the field's name.
+void validate(const KurtLobe& lobe, const std::string& prefix = "");
+
 /// Throws std::invalid_argument, naming field, range and value, unless every number is in its documented range.
 void validate(const Material& material);
 

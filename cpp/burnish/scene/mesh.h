@@ -20,10 +20,18 @@ struct Mesh {
     std::vector<uint32_t> indices;    ///< three per triangle, counter-clockwise seen from the front, all < positions.size()
 };
 
+/// Throws std::invalid_argument, naming the array, unless sizes agree, indices are in range and numbers finite.
+void validate(const Mesh& mesh);
+
 /// Normals as the area-weighted mean of the faces around each vertex; a vertex in no face of area gets +z.
 void compute_normals(Mesh& mesh);
 
+/// One normal per face, as glTF asks where normals are absent: every triangle gets vertices of its own.
+/// Triangles without area are left out.
+void compute_flat_normals(Mesh& mesh);
+
 /// Tangents along growing u by MikkTSpace's rules (maths in the .cpp). Splits vertices where they must differ.
+/// w = -1 where v grows along cross(normal, tangent): glTF's green points up.
 /// Needs uv (`uv_set` 0 or 1) and normals; throws std::invalid_argument where they are absent.
 void compute_tangents(Mesh& mesh, uint32_t uv_set);
 

@@ -22,7 +22,7 @@ struct Object {
     uint32_t material = 0; ///< index into Scene::materials
     glm::mat4 world_from_object{1.0f};
     /// The map its lobes reflect: null = the scene's environment, else a captured or given one of its own.
-    std::shared_ptr<const Environment> reflects;
+    std::shared_ptr<const Environment> reflects = nullptr;
 };
 
 struct Bounds {

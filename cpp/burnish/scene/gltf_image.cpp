@@ -1,0 +1,64 @@
+#include "burnish/scene/gltf_image.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <stdexcept>
+
+#include "burnish/error.h"
+
+namespace burnish::gltf {
+namespace {
+
+constexpr int MAX_SIDE = 16384;
+// Of any block while decoding: 16-bit RGBA with the doubling of a growing buffer, and room for tables.
+constexpr size_t BLOCK_BYTES_PER_TEXEL = 16, SMALLEST_BLOCK_LIMIT = 4u << 20, LARGEST_BLOCK_LIMIT = 513u << 20;
+thread_local size_t largest_block = SMALLEST_BLOCK_LIMIT;
+
+bool starts_with(const std::vector<uint8_t>& bytes, std::initializer_list<uint8_t> magic) {
+    return bytes.size() >= magic.size() && std::equal(magic.begin(), magic.end(), bytes.begin());
+}
+
+/// What the bytes are, for the message about a picture that is neither PNG nor JPEG.
+std::string describe(const std::vector<uint8_t>& bytes) {
+    if (bytes.empty()) return "an empty file";
+    if (starts_with(bytes, {0xAB, 'K', 'T', 'X', ' ', '2', '0'})) return "a KTX2 file";
+    if (starts_with(bytes, {'R', 'I', 'F', 'F'})) return "a WebP file";
+    if (starts_with(bytes, {'D', 'D', 'S', ' '})) return "a DDS file";
+    if (starts_with(bytes, {0x89, 'P', 'N', 'G'})) return "a damaged PNG";
+    if (starts_with(bytes, {0xFF, 0xD8})) return "a damaged JPEG";
+    return "something else";
+}
+
+} // namespace
+
+void* bounded_malloc(size_t size) { return size <= largest_block ? std::malloc(size) : nullptr; }
+void* bounded_realloc(void* pointer, size_t size) {
+    return size <= largest_block ? std::realloc(pointer, size) : nullptr;
+}
+void bounded_free(void* pointer) { std::free(pointer); }
+
+TextureImage decode_image(const std::vector<uint8_t>& bytes, uint64_t max_texels, std::string& warning) {
+    largest_block = SMALLEST_BLOCK_LIMIT;
+    StbHeader header = stb_header(bytes);
+    if (!header.is_known) throw std::runtime_error("expected a PNG or JPEG, got " + describe(bytes));
+    if (header.width < 1 || header.height < 1 || header.width > MAX_SIDE || header.height > MAX_SIDE)
+        throw std::runtime_error(
+            message("expected sides of 1..", MAX_SIDE, " texels, got ", header.width, " x ", header.height));
+    uint64_t texels = uint64_t{static_cast<uint32_t>(header.width)} * static_cast<uint32_t>(header.height);
+    if (texels > max_texels)
+        throw std::runtime_error(
+            message("expected at most ", max_texels, " texels, got ", header.width, " x ", header.height));
+
+    largest_block = std::clamp(static_cast<size_t>(texels) * BLOCK_BYTES_PER_TEXEL, SMALLEST_BLOCK_LIMIT, LARGEST_BLOCK_LIMIT);
+    int width = 0, height = 0;
+    std::string failure;
+    TextureImage image;
+    image.rgba = stb_decode(bytes, width, height, failure);
+    if (image.rgba.empty()) throw std::runtime_error("damaged picture (" + failure + ")");
+    image.width = static_cast<uint32_t>(width);
+    image.height = static_cast<uint32_t>(height);
+    if (header.is_16_bit) warning = "16 bits per channel read as 8";
+    return image;
+}
+
+} // namespace burnish::gltf
