@@ -35,7 +35,4 @@ layout(std430, binding = BINDING_TILES) readonly buffer Tiles { uint tiles[]; };
 layout(std430, binding = BINDING_RADIANCE) buffer Radiance { vec4 radiance_out[]; };
 layout(std430, binding = BINDING_COUNTERS) buffer CounterBlock { Counters counters; };
 
-// Dispatches are folded into rows of this many groups: a dimension may hold only 65535.
-const uint GROUPS_PER_ROW = 32768u;
-
 #endif

@@ -10,6 +10,8 @@ SHARED_BEGIN
 SHARED_CONST uint TILE_SIZE = 8u;
 // Pipelines ("shade classes") one frame may use; a tile's classes are one bit each. The last is the background.
 SHARED_CONST uint MAX_SHADE_CLASSES = 32u;
+// Dispatches are folded into rows of this many groups: one dimension may hold only 65535.
+SHARED_CONST uint GROUPS_PER_ROW = 32768u;
 // Samples that fit into specialization constants; beyond, the table is read from a buffer.
 SHARED_CONST uint MAX_CONSTANT_SAMPLES = 64u;
 
@@ -37,6 +39,10 @@ SHARED_CONST uint BINDING_RADIANCE = 14u;
 SHARED_CONST uint BINDING_COUNTERS = 15u;
 SHARED_CONST uint BINDING_TEXEL_ALIAS = 16u;
 SHARED_CONST uint BINDING_STATISTICS = 17u;
+SHARED_CONST uint BINDING_TILE_COUNTS = 18u; // xyz: indirect dispatch, w: tiles
+
+SHARED_CONST uint BINDING_ACCUMULATE_SAMPLE = 0u;
+SHARED_CONST uint BINDING_ACCUMULATE_SUM = 1u;
 
 // Specialization constants of the shade kernels.
 SHARED_CONST uint SPEC_SOURCE = 0u;
@@ -56,6 +62,7 @@ SHARED_CONST uint SPEC_SHADE_CLASS = 13u;
 SHARED_CONST uint SPEC_CLASS_COUNT = 14u;
 SHARED_CONST uint SPEC_HAS_COAT = 15u;
 SHARED_CONST uint SPEC_HAS_ANISOTROPY = 16u;
+SHARED_CONST uint SPEC_IS_QUADRATURE = 17u;
 SHARED_CONST uint SPEC_SAMPLES = 100u; // four floats a sample follow
 
 SHARED_CONST uint SOURCE_PIXELS = 0u;

@@ -117,6 +117,15 @@ struct ShadeRecord {
 };
 SHARED_SIZE(ShadeRecord, 32)
 
+// Push constants of the accumulation.
+struct AccumulateRecord {
+    uint count;    // pixels
+    uint is_first; // 1: the sum starts anew
+    float weight;
+    uint pad0;
+};
+SHARED_SIZE(AccumulateRecord, 16)
+
 // One texel of the table that draws texels in proportion to their light (Walker's alias method).
 struct TexelAlias {
     float threshold;   // keep the texel drawn while the fraction is below

@@ -1,0 +1,179 @@
+#include "burnish/plan/plan.h"
+
+#include <algorithm>
+#include <functional>
+#include <map>
+#include <stdexcept>
+
+#include "burnish/error.h"
+#include "burnish/plan/effects.h"
+#include "shared/constants.h"
+
+namespace burnish {
+namespace {
+
+/// Stands in where a scene has no environment: nothing is lit, nothing crashes.
+std::shared_ptr<const Environment> black_environment() {
+    static const auto black = std::make_shared<const Environment>(Environment::from_faces(1, std::vector<float>(18, 0.0f)));
+    return black;
+}
+
+uint32_t index_of(std::vector<std::shared_ptr<const Environment>>& environments, const std::shared_ptr<const Environment>& one) {
+    const auto found = std::find(environments.begin(), environments.end(), one);
+    if (found != environments.end()) return uint32_t(found - environments.begin());
+    environments.push_back(one);
+    return uint32_t(environments.size() - 1);
+}
+
+/// Every pair of material and map that some object shows.
+void add_instances(const Scene& scene, Plan& plan) {
+    for (const Object& object : scene.objects) {
+        const uint32_t environment = index_of(plan.environments, object.reflects ? object.reflects : plan.environments[0]);
+        const auto found = std::find_if(plan.instances.begin(), plan.instances.end(), [&](const MaterialInstance& instance) {
+            return instance.material == object.material && instance.environment == environment;
+        });
+        plan.object_instance.push_back(uint32_t(found - plan.instances.begin()));
+        if (found == plan.instances.end()) plan.instances.push_back({object.material, environment, 0});
+    }
+    // A surface point names its instance in 16 bits, and 0 means none.
+    if (plan.instances.size() > 0xfffe)
+        throw std::invalid_argument(message("scene: expected at most 65534 pairs of material and map, got ", plan.instances.size()));
+}
+
+void add_map_sets(Plan& plan) {
+    for (uint32_t k = 0; k < plan.environments.size(); ++k) {
+        const uint32_t face_size = plan.environments[k]->face_size();
+        const auto found = std::find_if(plan.map_sets.begin(), plan.map_sets.end(),
+                                        [&](const MapSet& set) { return set.face_size == face_size; });
+        if (found == plan.map_sets.end())
+            plan.map_sets.push_back({face_size, {k}});
+        else
+            found->environments.push_back(k);
+    }
+}
+
+uint32_t map_set_of(const Plan& plan, uint32_t environment) {
+    for (uint32_t k = 0; k < plan.map_sets.size(); ++k)
+        if (plan.map_sets[k].face_size == plan.environments[environment]->face_size()) return k;
+    throw std::logic_error("plan: an environment without a map set");
+}
+
+bool fits_into_constants(const Sampler& sampler) {
+    const auto fits = [](uint32_t samples) { return samples + samples / 4 <= shared::MAX_CONSTANT_SAMPLES; };
+    if (const auto* regular = std::get_if<Regular>(&sampler)) return fits(regular->samples); // the pattern may exceed its budget
+    if (const auto* importance = std::get_if<Importance>(&sampler)) return importance->samples <= shared::MAX_CONSTANT_SAMPLES;
+    return false;
+}
+
+ShadeTraits traits_of(const Scene& scene, const Plan& plan, const MaterialInstance& instance) {
+    const Material& material = scene.materials[instance.material];
+    ShadeTraits traits;
+    traits.has_varying = is_varying(material);
+    traits.has_coat = traits.has_varying && has_coat(material);
+    traits.has_diffuse = has_diffuse(material);
+    traits.has_emissive = has_emissive(material);
+    const Environment& environment = *plan.environments[instance.environment];
+    traits.has_map_rotation = environment.rotation != glm::mat3(1.0f);
+    traits.map_set = map_set_of(plan, instance.environment);
+    if (!plan.settings.has_lobes) return traits;
+
+    traits.lobe_count = uint32_t(material.lobes.size());
+    for (const KurtLobe& lobe : material.lobes) {
+        traits.has_fresnel |= lobe.has_fresnel() || traits.has_varying;
+        traits.has_tangent |= lobe.is_anisotropic();
+        const AlphaForm form = lobe.alpha == 0.0f ? AlphaForm::zero : lobe.alpha == 0.5f ? AlphaForm::half : AlphaForm::general;
+        const bool is_first = &lobe == &material.lobes.front();
+        traits.alpha = is_first || traits.alpha == form ? form : AlphaForm::general;
+    }
+    traits.has_tangent |= has_texture(material, &MetallicRoughness::anisotropy_texture);
+    if (traits.lobe_count == 0 || std::holds_alternative<Reference>(plan.settings.sampler)) return traits;
+    if (traits.has_varying) {
+        traits.table = TableForm::scaled;
+    } else if (traits.lobe_count == 1 && fits_into_constants(plan.settings.sampler)) {
+        traits.table = TableForm::constant;
+        traits.roughness = material.lobes[0].roughness;
+    } else {
+        traits.table = TableForm::buffer;
+    }
+    return traits;
+}
+
+/// Groups instances of equal traits, after `coarsen` has dropped what may be dropped.
+void group(Plan& plan, const std::vector<ShadeTraits>& traits, const std::function<void(ShadeTraits&)>& coarsen) {
+    plan.classes.clear();
+    for (uint32_t k = 0; k < plan.instances.size(); ++k) {
+        ShadeTraits wanted = traits[k];
+        coarsen(wanted);
+        auto found = std::find_if(plan.classes.begin(), plan.classes.end(),
+                                  [&](const ShadeClass& one) { return one.traits == wanted; });
+        if (found == plan.classes.end()) found = plan.classes.insert(found, {wanted, {}, {}});
+        found->instances.push_back(k);
+        plan.instances[k].shade_class = uint32_t(found - plan.classes.begin());
+    }
+}
+
+void read_tables_from_buffer(ShadeTraits& traits) {
+    if (traits.table != TableForm::constant) return;
+    traits.table = TableForm::buffer;
+    traits.roughness = glm::vec2(0.0f);
+}
+
+/// Costs some speed, changes no picture: an effect that is on and zero adds nothing.
+void share_pipelines(ShadeTraits& traits) {
+    read_tables_from_buffer(traits);
+    traits.has_diffuse = traits.has_emissive = traits.has_map_rotation = true;
+    if (traits.lobe_count == 0) return;
+    traits.has_fresnel = traits.has_tangent = true;
+    traits.alpha = AlphaForm::general;
+    traits.has_coat = traits.has_varying && traits.lobe_count > 1;
+}
+
+void add_classes(const Scene& scene, Plan& plan) {
+    std::vector<ShadeTraits> traits;
+    for (const MaterialInstance& instance : plan.instances) traits.push_back(traits_of(scene, plan, instance));
+    group(plan, traits, [](ShadeTraits&) {});
+    const auto constant_count = std::count_if(plan.classes.begin(), plan.classes.end(), [](const ShadeClass& one) {
+        return one.traits.table == TableForm::constant;
+    });
+    if (size_t(constant_count) > MAX_CONSTANT_CLASSES) group(plan, traits, read_tables_from_buffer);
+    // One class is left for the background.
+    if (plan.classes.size() > shared::MAX_SHADE_CLASSES - 1) group(plan, traits, share_pipelines);
+    if (plan.classes.size() > shared::MAX_SHADE_CLASSES - 1)
+        throw std::invalid_argument(message("scene: expected at most ", shared::MAX_SHADE_CLASSES - 1,
+                                            " combinations of lobe count, face size and texturing, got ", plan.classes.size()));
+    for (ShadeClass& one : plan.classes) {
+        one.reason = describe(one, scene, plan, size_t(constant_count));
+        plan.has_varying |= one.traits.has_varying;
+        plan.has_coat |= one.traits.has_coat;
+        plan.has_tangent |= one.traits.has_tangent;
+    }
+}
+
+} // namespace
+
+const char* name_of(PyramidFilter filter) {
+    switch (filter) {
+    case PyramidFilter::box: return "box";
+    case PyramidFilter::gauss4: return "gauss4";
+    case PyramidFilter::gauss6: return "gauss6";
+    }
+    return "";
+}
+
+Plan make_plan(const Scene& scene, const PlanSettings& settings) {
+    validate(settings.sampler);
+    if (settings.spp < 1 || settings.spp > 65536) throw std::invalid_argument(message("spp: expected 1..65536, got ", settings.spp));
+    Plan plan;
+    plan.settings = settings;
+    plan.environments.push_back(scene.environment ? scene.environment : black_environment());
+    plan.has_background = scene.show_background && scene.environment;
+    add_instances(scene, plan);
+    add_map_sets(plan);
+    add_classes(scene, plan);
+    if (!scene.environment) plan.warnings.push_back("the scene has no environment: only emission is seen");
+    add_effect_lines(scene, plan);
+    add_pass_lines(plan);
+    return plan;
+}
+
+} // namespace burnish

@@ -1,0 +1,101 @@
+// What one scene needs of the engine: passes, shader variants and the reason for each. Pure data; knows no Vulkan.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "burnish/sampling/sampler.h"
+#include "burnish/scene/scene.h"
+
+namespace burnish {
+
+enum class PyramidFilter { box, gauss4, gauss6 };
+
+struct PlanSettings {
+    Sampler sampler = Regular{};
+    uint32_t spp = 1;
+    PyramidFilter filter = PyramidFilter::gauss6;
+    bool has_lobes = true; ///< false for captured maps: diffuse, emission and the far environment only
+};
+
+/// One thing the engine can simulate, and whether this scene calls for it.
+struct EffectLine {
+    std::string name;
+    bool is_on = false;
+    std::string reason;
+};
+
+struct PassLine {
+    std::string name;
+    std::string reason;
+};
+
+enum class AlphaForm { zero, half, general };
+/// Where a class's samples come from: baked into the pipeline, a buffer, or a buffer in units of a varying roughness.
+enum class TableForm { none, constant, buffer, scaled };
+
+/// One specialised pipeline and what it is made for. Two materials of equal traits share it.
+struct ShadeTraits {
+    uint32_t lobe_count = 0;
+    bool has_fresnel = false;
+    AlphaForm alpha = AlphaForm::zero;
+    bool has_tangent = false;
+    bool has_diffuse = false;
+    bool has_emissive = false;
+    bool has_varying = false;
+    bool has_coat = false;
+    bool has_map_rotation = false;
+    TableForm table = TableForm::none;
+    glm::vec2 roughness{0.0f}; ///< of constant tables, else 0
+    uint32_t map_set = 0;      ///< index into Plan::map_sets
+
+    bool operator==(const ShadeTraits&) const = default;
+};
+
+struct ShadeClass {
+    ShadeTraits traits;
+    std::vector<uint32_t> instances; ///< into Plan::instances
+    std::string reason;
+};
+
+/// A material seen with one map: what a surface point refers to.
+struct MaterialInstance {
+    uint32_t material = 0;    ///< into Scene::materials
+    uint32_t environment = 0; ///< into Plan::environments
+    uint32_t shade_class = 0; ///< into Plan::classes
+};
+
+/// Environments of one face size: they share a cube array.
+struct MapSet {
+    uint32_t face_size = 0;
+    std::vector<uint32_t> environments; ///< into Plan::environments, in order of layers
+};
+
+struct Plan {
+    PlanSettings settings;
+    std::vector<std::shared_ptr<const Environment>> environments; ///< the scene's first
+    std::vector<MapSet> map_sets;
+    std::vector<MaterialInstance> instances;
+    std::vector<uint32_t> object_instance; ///< for each object of the scene
+    std::vector<ShadeClass> classes;
+    bool has_background = false;
+    bool has_varying = false; ///< some material needs the wide G-buffer
+    bool has_coat = false;
+    bool has_tangent = false;
+
+    std::vector<EffectLine> effects;
+    std::vector<PassLine> passes;
+    std::vector<std::string> warnings;
+};
+
+/// More constant tables than this are read from a buffer instead: each is a pipeline to compile.
+constexpr size_t MAX_CONSTANT_CLASSES = 6;
+
+/// Chooses passes and shader variants. Throws std::invalid_argument for settings out of range.
+Plan make_plan(const Scene& scene, const PlanSettings& settings);
+
+const char* name_of(PyramidFilter filter);
+
+} // namespace burnish

@@ -1,0 +1,64 @@
+// A scene's triangles and pictures on the device. Materials are small and change often: they are in ShadeTables.
+#pragma once
+
+#include <array>
+#include <map>
+#include <memory>
+#include <vector>
+
+#include "burnish/scene/scene.h"
+#include "burnish/vulkan/buffer.h"
+#include "burnish/vulkan/image.h"
+
+namespace burnish::render {
+
+/// Where one mesh lies in the buffers.
+struct MeshRange {
+    uint32_t first_index = 0;
+    uint32_t index_count = 0;
+    int32_t vertex_offset = 0;
+};
+
+/// One texture of one material, ready to be bound.
+struct BoundTexture {
+    const vulkan::Image* image = nullptr;
+    const vulkan::Sampler* sampler = nullptr;
+};
+
+class GpuScene {
+public:
+    /// Bytes of one vertex: position, then normal and tangent packed; and of what textures need of it.
+    static constexpr uint32_t VERTEX_BYTES = 20;
+    static constexpr uint32_t TEXTURE_VERTEX_BYTES = 24;
+
+    GpuScene(const vulkan::DevicePointer& device, const Scene& scene);
+
+    const vulkan::Buffer& vertices() const { return vertices_; }
+    /// Texture coordinates and colours; a single vertex of zeros when no mesh has any.
+    const vulkan::Buffer& texture_vertices() const { return texture_vertices_; }
+    bool has_texture_vertices() const { return has_texture_vertices_; }
+    const vulkan::Buffer& indices() const { return indices_; }
+    const MeshRange& mesh(uint32_t index) const { return meshes_[index]; }
+    uint64_t triangle_count() const { return triangle_count_; }
+
+    /// The picture decoded from sRGB or not, with mip levels; a white texel for an unused texture.
+    BoundTexture texture(const TextureUse& use, bool is_srgb);
+
+private:
+    void upload_meshes(const vulkan::DevicePointer& device, const Scene& scene);
+    vulkan::Image upload_image(const TextureImage& picture, bool is_srgb) const;
+
+    vulkan::DevicePointer device_;
+    std::vector<TextureImage> pictures_; // uploaded when first used
+    vulkan::Buffer vertices_, texture_vertices_, indices_;
+    bool has_texture_vertices_ = false;
+    uint64_t triangle_count_ = 0;
+    std::vector<MeshRange> meshes_;
+    std::map<std::pair<int32_t, bool>, vulkan::Image> images_; // by index (-1 = white) and is_srgb
+    std::map<std::array<int, 5>, vulkan::Sampler> samplers_;
+};
+
+/// Changes when any vertex, index or texel of the scene does.
+uint64_t fingerprint(const Scene& scene);
+
+} // namespace burnish::render

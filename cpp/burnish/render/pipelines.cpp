@@ -1,0 +1,78 @@
+#include "burnish/render/pipelines.h"
+
+#include <span>
+#include <stdexcept>
+
+#include "spirv/resolve_accumulate_comp.h"
+#include "spirv/shade_background_comp.h"
+#include "spirv/shade_classify_tiles_comp.h"
+#include "spirv/shade_finish_tiles_comp.h"
+#include "spirv/shade_reference_comp.h"
+#include "spirv/shade_shade_comp.h"
+#include "spirv/surface_surface_frag.h"
+#include "spirv/surface_surface_varying_frag.h"
+#include "spirv/surface_surface_vert.h"
+
+namespace burnish::render {
+namespace {
+
+const std::map<std::string, std::span<const uint32_t>>& spirv() {
+    static const std::map<std::string, std::span<const uint32_t>> words = {
+        {"resolve/accumulate.comp", resolve_accumulate_comp_spv},
+        {"shade/background.comp", shade_background_comp_spv},
+        {"shade/classify_tiles.comp", shade_classify_tiles_comp_spv},
+        {"shade/finish_tiles.comp", shade_finish_tiles_comp_spv},
+        {"shade/reference.comp", shade_reference_comp_spv},
+        {"shade/shade.comp", shade_shade_comp_spv},
+        {"surface/surface.frag", surface_surface_frag_spv},
+        {"surface/surface_varying.frag", surface_surface_varying_frag_spv},
+        {"surface/surface.vert", surface_surface_vert_spv},
+    };
+    return words;
+}
+
+} // namespace
+
+const vulkan::Shader& Pipelines::find_shader(const std::string& name) {
+    const auto found = shaders_.find(name);
+    if (found != shaders_.end()) return found->second;
+    const auto words = spirv().find(name);
+    if (words == spirv().end()) throw std::logic_error("no shader is called " + name);
+    return shaders_.emplace(name, vulkan::Shader(device_, name, words->second)).first->second;
+}
+
+const vulkan::Shader& Pipelines::shader(const std::string& name) {
+    const std::lock_guard lock(mutex_);
+    return find_shader(name);
+}
+
+const vulkan::ComputePipeline& Pipelines::compute(const std::string& name, const vulkan::SpecializationConstants& constants) {
+    const std::lock_guard lock(mutex_);
+    const auto key = std::make_pair(name, constants);
+    auto found = compute_.find(key);
+    if (found == compute_.end()) {
+        found = compute_.emplace(key, vulkan::ComputePipeline(device_, find_shader(name), constants)).first;
+        compile_ms_ += found->second.compile_ms();
+    }
+    return found->second;
+}
+
+const vulkan::GraphicsPipeline& Pipelines::graphics(const std::string& vertex, const std::string& fragment,
+                                                    const std::string& key_text, const vulkan::GraphicsSettings& settings) {
+    const std::lock_guard lock(mutex_);
+    const auto key = std::make_pair(vertex + "+" + fragment + "+" + key_text, settings.constants);
+    auto found = graphics_.find(key);
+    if (found == graphics_.end()) {
+        vulkan::GraphicsPipeline pipeline(device_, find_shader(vertex), find_shader(fragment), settings);
+        found = graphics_.emplace(key, std::move(pipeline)).first;
+        compile_ms_ += found->second.compile_ms();
+    }
+    return found->second;
+}
+
+double Pipelines::take_compile_ms() {
+    const std::lock_guard lock(mutex_);
+    return std::exchange(compile_ms_, 0.0);
+}
+
+} // namespace burnish::render

@@ -1,0 +1,233 @@
+#include "burnish/render/surface_pass.h"
+
+#include <algorithm>
+
+#include "burnish/plan/effects.h"
+#include "burnish/vulkan/transfer.h"
+#include "shared/constants.h"
+
+namespace burnish::render {
+namespace {
+
+struct TextureSlot {
+    uint32_t kind;
+    TextureUse MetallicRoughness::*use;
+    bool is_srgb;
+};
+
+constexpr TextureSlot TEXTURE_SLOTS[] = {
+    {shared::TEXTURE_BASE_COLOR, &MetallicRoughness::base_color_texture, true},
+    {shared::TEXTURE_METALLIC_ROUGHNESS, &MetallicRoughness::metallic_roughness_texture, false},
+    {shared::TEXTURE_NORMAL, &MetallicRoughness::normal_texture, false},
+    {shared::TEXTURE_OCCLUSION, &MetallicRoughness::occlusion_texture, false},
+    {shared::TEXTURE_EMISSIVE, &MetallicRoughness::emissive_texture, true},
+    {shared::TEXTURE_SPECULAR, &MetallicRoughness::specular_texture, false},
+    {shared::TEXTURE_SPECULAR_COLOR, &MetallicRoughness::specular_color_texture, true},
+    {shared::TEXTURE_ANISOTROPY, &MetallicRoughness::anisotropy_texture, false},
+    {shared::TEXTURE_CLEARCOAT, &MetallicRoughness::clearcoat_texture, false},
+    {shared::TEXTURE_CLEARCOAT_ROUGHNESS, &MetallicRoughness::clearcoat_roughness_texture, false},
+};
+static_assert(std::size(TEXTURE_SLOTS) == shared::TEXTURE_KINDS);
+
+uint32_t texture_mask(const Material& material) {
+    uint32_t mask = 0;
+    for (const TextureSlot& slot : TEXTURE_SLOTS)
+        if (has_texture(material, slot.use)) mask |= 1u << slot.kind;
+    return mask;
+}
+
+/// Coverage below which a fragment is dropped; blended materials are drawn as masks at one half.
+float cutoff(const Material& material) { return material.alpha_mode == AlphaMode::blend ? 0.5f : material.alpha_cutoff; }
+
+shared::SurfaceRecord surface_record(const Material& material, uint32_t texture_begin) {
+    const MetallicRoughness source = material.source.value_or(MetallicRoughness{});
+    const float reflectance = (source.ior - 1.0f) / (source.ior + 1.0f);
+    shared::SurfaceRecord record{};
+    record.base_color = source.base_color;
+    record.emissive = glm::vec4(material.emissive, cutoff(material));
+    record.specular = glm::vec4(reflectance * reflectance * source.specular_color, 1.0f) *
+                      glm::vec4(1.0f, 1.0f, 1.0f, source.specular);
+    record.metallic = source.metallic;
+    record.roughness = source.roughness;
+    record.anisotropy = source.anisotropy;
+    record.clearcoat = source.clearcoat;
+    record.clearcoat_roughness = source.clearcoat_roughness;
+    record.normal_scale = source.normal_scale;
+    record.occlusion_strength = source.occlusion_strength;
+    record.texture_begin = texture_begin;
+    return record;
+}
+
+shared::DrawRecord draw_record(const Object& object, uint32_t instance) {
+    shared::DrawRecord record{};
+    record.world_from_object = object.world_from_object;
+    // Cofactors instead of the inverse transpose: the same directions, and finite where an axis is scaled to nothing.
+    const glm::mat3 m(object.world_from_object);
+    const float determinant = glm::dot(m[0], glm::cross(m[1], m[2]));
+    const float sign = determinant < 0.0f ? -1.0f : 1.0f;
+    record.normal_from_object_x = glm::vec4(sign * glm::cross(m[1], m[2]), sign);
+    record.normal_from_object_y = glm::vec4(sign * glm::cross(m[2], m[0]), 0.0f);
+    record.normal_from_object_z = glm::vec4(sign * glm::cross(m[0], m[1]), 0.0f);
+    // Their length goes with the square of the scale: bring tiny and huge scenes back to order one.
+    const float largest = std::max({glm::length(glm::vec3(record.normal_from_object_x)), glm::length(glm::vec3(record.normal_from_object_y)),
+                                    glm::length(glm::vec3(record.normal_from_object_z))});
+    if (largest > 0.0f) {
+        const glm::vec4 scale(glm::vec3(1.0f / largest), 1.0f);
+        record.normal_from_object_x *= scale;
+        record.normal_from_object_y *= scale;
+        record.normal_from_object_z *= scale;
+    }
+    record.material = instance;
+    return record;
+}
+
+std::vector<VkVertexInputAttributeDescription> vertex_attributes() {
+    return {{0, 0, VK_FORMAT_R32G32B32_SFLOAT, 0},
+            {1, 0, VK_FORMAT_R16G16B16A16_SNORM, 12},
+            {2, 1, VK_FORMAT_R32G32B32A32_SFLOAT, 0},
+            {3, 1, VK_FORMAT_R16G16B16A16_UNORM, 16}};
+}
+
+vulkan::Image target(const vulkan::DevicePointer& device, VkFormat format, uint32_t width, uint32_t height, VkImageUsageFlags usage) {
+    vulkan::ImageSettings settings;
+    settings.format = format;
+    settings.width = width;
+    settings.height = height;
+    settings.usage = usage;
+    return vulkan::Image(device, settings);
+}
+
+constexpr VkFormat SURFACE_FORMAT = VK_FORMAT_R32G32_UINT;
+constexpr VkFormat VARYING_FORMAT = VK_FORMAT_R16G16B16A16_SFLOAT;
+constexpr VkFormat DEPTH_FORMAT = VK_FORMAT_D32_SFLOAT;
+
+} // namespace
+
+FrameTargets::FrameTargets(const vulkan::DevicePointer& device, uint32_t width_px, uint32_t height_px, bool is_varying, bool has_sum,
+                           uint32_t class_count)
+    : width(width_px), height(height_px), has_varying(is_varying) {
+    const VkImageUsageFlags color = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_STORAGE_BIT;
+    surface = target(device, SURFACE_FORMAT, width, height, color);
+    depth = target(device, DEPTH_FORMAT, width, height, VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT);
+    for (vulkan::Image* image : {&varying_diffuse, &varying_specular, &varying_emissive, &varying_coat})
+        *image = target(device, VARYING_FORMAT, is_varying ? width : 1, is_varying ? height : 1, color);
+    const VkDeviceSize pixels = VkDeviceSize(width) * height;
+    tile_capacity = ((width + shared::TILE_SIZE - 1) / shared::TILE_SIZE) * ((height + shared::TILE_SIZE - 1) / shared::TILE_SIZE);
+    const VkBufferUsageFlags storage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT;
+    // A CPU device shades straight into memory that the host reads.
+    const vulkan::MemoryUse use = device->info().is_software ? vulkan::MemoryUse::read_back : vulkan::MemoryUse::device;
+    radiance = vulkan::Buffer(device, pixels * sizeof(glm::vec4), storage, use);
+    sum = vulkan::Buffer(device, (has_sum ? pixels : 1) * sizeof(glm::vec4), storage, use);
+    tiles = vulkan::Buffer(device, VkDeviceSize(class_count) * tile_capacity * sizeof(uint32_t), storage);
+    tile_counts = vulkan::Buffer(device, class_count * sizeof(glm::uvec4), storage | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT);
+    counters = vulkan::Buffer(device, sizeof(shared::Counters), storage);
+    view = vulkan::Buffer(device, sizeof(shared::ViewRecord), storage);
+}
+
+SurfacePass::SurfacePass(Pipelines& pipelines, GpuScene& gpu_scene, const Scene& scene, const Plan& plan, const FrameTargets& targets)
+    : gpu_scene_(gpu_scene), has_varying_(plan.has_varying), has_tangent_(plan.has_tangent) {
+    for (const MaterialInstance& instance : plan.instances)
+        has_tangent_ |= has_texture(scene.materials[instance.material], &MetallicRoughness::normal_texture);
+    add_records(pipelines.device(), scene, plan);
+    for (size_t k = 0; k < scene.objects.size(); ++k) {
+        const Object& object = scene.objects[k];
+        const Material& material = scene.materials[object.material];
+        const uint32_t instance = plan.object_instance[k];
+        const bool is_varying = plan.classes[plan.instances[instance].shade_class].traits.has_varying;
+        const float coverage = material.source ? material.source->base_color.a : 1.0f;
+        if (!is_varying && material.alpha_mode != AlphaMode::opaque && coverage < cutoff(material)) continue;
+        const shared::DrawRecord record = draw_record(object, instance);
+        // In a wide G-buffer every material is drawn by the varying shader, so that all targets are written.
+        const vulkan::GraphicsPipeline& pipeline = pipeline_for(pipelines, material, has_varying_, record.normal_from_object_x.w < 0.0f);
+        const vulkan::DescriptorSet& set = set_for(pipeline, material, has_varying_ ? object.material : 0, has_varying_, targets);
+        draws_.push_back({&pipeline, &set, record, gpu_scene_.mesh(object.mesh)});
+    }
+}
+
+void SurfacePass::add_records(const vulkan::DevicePointer& device, const Scene& scene, const Plan& plan) {
+    std::vector<shared::SurfaceRecord> surfaces;
+    std::vector<shared::TextureRecord> textures;
+    for (const MaterialInstance& instance : plan.instances) {
+        const Material& material = scene.materials[instance.material];
+        surfaces.push_back(surface_record(material, uint32_t(textures.size())));
+        for (const TextureSlot& slot : TEXTURE_SLOTS) {
+            const TextureUse use = material.source ? *material.source.*slot.use : TextureUse{};
+            const glm::mat2& m = use.uv_scale_rotation;
+            textures.push_back({glm::vec4(m[0], m[1]), use.uv_offset, use.uv_set, 0});
+        }
+    }
+    if (surfaces.empty()) {
+        surfaces.emplace_back();
+        textures.emplace_back();
+    }
+    surface_records_ = vulkan::make_buffer(device, std::as_bytes(std::span(surfaces)), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
+    texture_records_ = vulkan::make_buffer(device, std::as_bytes(std::span(textures)), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
+}
+
+const vulkan::GraphicsPipeline& SurfacePass::pipeline_for(Pipelines& pipelines, const Material& material, bool is_varying,
+                                                          bool is_mirrored) const {
+    vulkan::GraphicsSettings settings;
+    const bool has_texture_vertices = gpu_scene_.has_texture_vertices();
+    settings.vertex_bindings = {{0, GpuScene::VERTEX_BYTES, VK_VERTEX_INPUT_RATE_VERTEX},
+                                {1, has_texture_vertices ? GpuScene::TEXTURE_VERTEX_BYTES : 0, VK_VERTEX_INPUT_RATE_VERTEX}};
+    settings.vertex_attributes = vertex_attributes();
+    settings.color_formats = {SURFACE_FORMAT};
+    if (is_varying) settings.color_formats.insert(settings.color_formats.end(), 4, VARYING_FORMAT);
+    settings.depth_format = DEPTH_FORMAT;
+    settings.cull_mode = material.double_sided ? VK_CULL_MODE_NONE : VK_CULL_MODE_BACK_BIT;
+    settings.front_face = is_mirrored ? VK_FRONT_FACE_CLOCKWISE : VK_FRONT_FACE_COUNTER_CLOCKWISE;
+    settings.constants.set(shared::SPEC_SURFACE_TANGENT, has_tangent_)
+        .set(shared::SPEC_SURFACE_VARYING, is_varying)
+        .set(shared::SPEC_DOUBLE_SIDED, material.double_sided);
+    if (is_varying)
+        settings.constants.set(shared::SPEC_TEXTURES, texture_mask(material))
+            .set(shared::SPEC_VERTEX_COLOR, material.source && material.source->has_vertex_color)
+            .set(shared::SPEC_ALPHA_MASK, material.alpha_mode != AlphaMode::opaque);
+    const std::string key = std::string(is_mirrored ? "mirrored " : "") + (has_texture_vertices ? "textured" : "");
+    return pipelines.graphics("surface/surface.vert", is_varying ? "surface/surface_varying.frag" : "surface/surface.frag", key, settings);
+}
+
+const vulkan::DescriptorSet& SurfacePass::set_for(const vulkan::GraphicsPipeline& pipeline, const Material& material, uint32_t key,
+                                                  bool is_varying, const FrameTargets& targets) {
+    const auto [entry, is_new] = sets_.try_emplace({key, &pipeline}, pipeline);
+    vulkan::DescriptorSet& set = entry->second;
+    if (!is_new) return set;
+    set.bind(shared::BINDING_SURFACE_VIEW, targets.view);
+    if (!is_varying) return set;
+    set.bind(shared::BINDING_SURFACE_MATERIALS, surface_records_);
+    set.bind(shared::BINDING_SURFACE_TEXTURE_RECORDS, texture_records_);
+    for (const TextureSlot& slot : TEXTURE_SLOTS) {
+        const BoundTexture texture = gpu_scene_.texture(material.source ? *material.source.*slot.use : TextureUse{}, slot.is_srgb);
+        set.bind(shared::BINDING_SURFACE_TEXTURES, texture.image->view(), *texture.sampler, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL,
+                 slot.kind);
+    }
+    return set;
+}
+
+void SurfacePass::record(vulkan::Commands& commands, FrameTargets& targets) const {
+    vulkan::RenderingTargets rendering;
+    const auto clear = [](vulkan::Image& image) { return vulkan::ColorTarget{.image = &image, .clear = VkClearColorValue{}}; };
+    rendering.colors.push_back(clear(targets.surface));
+    if (has_varying_)
+        for (vulkan::Image* image : {&targets.varying_diffuse, &targets.varying_specular, &targets.varying_emissive, &targets.varying_coat})
+            rendering.colors.push_back(clear(*image));
+    rendering.depth = vulkan::DepthTarget{.image = &targets.depth, .clear = 0.0f};
+    commands.begin_rendering(rendering);
+    const vulkan::GraphicsPipeline* bound = nullptr;
+    const vulkan::DescriptorSet* bound_set = nullptr;
+    commands.bind_vertex_buffer(0, gpu_scene_.vertices());
+    commands.bind_vertex_buffer(1, gpu_scene_.texture_vertices());
+    commands.bind_index_buffer(gpu_scene_.indices(), VK_INDEX_TYPE_UINT32);
+    for (const Draw& draw : draws_) {
+        if (draw.pipeline != bound || draw.set != bound_set)
+            commands.bind_graphics(*draw.pipeline, *draw.set, vulkan::push_bytes(draw.record));
+        else
+            commands.push_graphics(vulkan::push_bytes(draw.record));
+        bound = draw.pipeline;
+        bound_set = draw.set;
+        commands.draw_indexed(draw.range.index_count, 1, draw.range.first_index, draw.range.vertex_offset);
+    }
+    commands.end_rendering();
+}
+
+} // namespace burnish::render

@@ -1,0 +1,15 @@
+// Draws the environment, at full sharpness, where no object is.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+
+#include "shade/surface_point.glsl"
+
+void main() {
+    PointToShade point;
+    bool is_inside = locate_pixel(point.pixel);
+    point.is_mine = is_inside && !has_surface(imageLoad(surface_image, point.pixel).xy);
+    point.index = uint(point.pixel.y) * view.width_px + uint(point.pixel.x);
+    MapRecord map = map_records[view.background_map];
+    vec3 direction = environment_from_world(map, pixel_ray(vec2(point.pixel)));
+    store_radiance(point, textureLod(maps, vec4(direction, float(map.layer)), 0.0).rgb * map.radiance_scale, 0.0);
+}

@@ -1,0 +1,16 @@
+// Turns the tile counts of all classes into indirect dispatches, and marks where each list ends.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+
+#include "shared/constants.h"
+
+layout(local_size_x = MAX_SHADE_CLASSES) in;
+layout(constant_id = SPEC_CLASS_COUNT) const uint CLASS_COUNT = 1u;
+layout(std430, binding = BINDING_TILE_COUNTS) buffer TileCounts { uvec4 tile_counts[]; };
+
+void main() {
+    uint shade_class = gl_LocalInvocationIndex;
+    if (shade_class >= CLASS_COUNT) return;
+    uint count = tile_counts[shade_class].w;
+    tile_counts[shade_class].xyz = uvec3(min(count, GROUPS_PER_ROW), (count + GROUPS_PER_ROW - 1u) / GROUPS_PER_ROW, 1u);
+}

@@ -1,0 +1,137 @@
+// The truth a frame is judged by, one batch per dispatch. Two methods:
+//   quadrature:  L = sum over level-0 texels of L_t f(i_t) cos_i solid angle_t;
+//   progressive: multiple importance sampling (balance heuristic) of lobe and map, level-0 lookups, a new random shift each
+//                batch, so that batches are independent and their spread gives the standard error.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+
+#include "lib/cube_map.glsl"
+#include "lib/kurt_lobe.glsl"
+#include "lib/random.glsl"
+#include "lib/spherical_harmonics.glsl"
+#include "shade/surface_point.glsl"
+
+layout(constant_id = SPEC_IS_QUADRATURE) const bool IS_QUADRATURE = false;
+
+layout(std430, binding = BINDING_TEXEL_ALIAS) readonly buffer Alias { TexelAlias texel_alias[]; };
+// Per point: rgb: sum of the batches' means; a: sum of the squares of their luminances.
+layout(std430, binding = BINDING_STATISTICS) buffer Statistics { vec4 statistics[]; };
+
+struct LobeView {
+    mat3 frame; // environment space
+    vec3 omega_o;
+    vec3 local_o;
+    SurfaceLobe lobe;
+    float alpha;
+    float layer;
+};
+
+// f cos_i, with Fresnel and weight, for a local direction and the half-vector between.
+vec3 lobe_value(LobeView v, vec3 local_i, vec3 h) {
+    if (local_i.z <= 0.0 || h.z <= 0.0) return vec3(0.0);
+    float cos_d = max(dot(v.local_o, h), 1e-20);
+    float value = kurt_d(h, v.lobe.roughness) * grazing_term(local_i.z, v.local_o.z, v.alpha) / (4.0 * cos_d);
+    return value * (v.lobe.specular + v.lobe.grazing * schlick_weight(cos_d));
+}
+
+vec3 half_vector(vec3 a, vec3 b) {
+    vec3 h = a + b;
+    return h * inversesqrt(max(dot(h, h), 1e-20));
+}
+
+vec3 quadrature(LobeView v, uint face_size) {
+    vec3 sum = vec3(0.0);
+    uint face_texels = face_size * face_size;
+    for (uint texel = push.texel_begin; texel < push.texel_end; ++texel) {
+        uint in_face = texel % face_texels;
+        vec2 uv = (2.0 * vec2(in_face % face_size, in_face / face_size) + 1.0) / float(face_size) - 1.0;
+        vec3 w = cube_direction(texel / face_texels, uv.x, uv.y);
+        vec3 local_i = normalize(w) * v.frame;
+        vec3 value = lobe_value(v, local_i, half_vector(local_i, v.local_o));
+        sum += value * texel_solid_angle(float(face_texels), w) * textureLod(maps, vec4(w, v.layer), 0.0).rgb;
+    }
+    return sum;
+}
+
+// Density of `draw_texel` per solid angle in direction w.
+float texel_pdf(vec3 w, uint face_size) {
+    vec2 uv;
+    uint face = cube_face_uv(w, uv);
+    uvec2 texel = min(uvec2(max((uv * 0.5 + 0.5) * float(face_size), vec2(0.0))), uvec2(face_size - 1u));
+    float face_texels = float(face_size * face_size);
+    return texel_alias[(face * face_size + texel.y) * face_size + texel.x].probability / texel_solid_angle(face_texels, w);
+}
+
+// A direction in proportion to the map's light: a texel by its alias table, a place in it at random.
+vec3 draw_texel(vec3 x, uint face_size) {
+    uint count = 6u * face_size * face_size;
+    float scaled = x.x * float(count);
+    uint texel = min(uint(scaled), count - 1u);
+    // The fraction left of one float has few bits for large maps: mix in bits of the place, which are independent of it.
+    float fraction = fract(x.x * 4096.0 + x.y * 1024.0 + x.z);
+    if (fraction >= texel_alias[texel].threshold) texel = texel_alias[texel].alias;
+    uint in_face = texel % (face_size * face_size);
+    vec2 uv = 2.0 * (vec2(in_face % face_size, in_face / face_size) + x.yz) / float(face_size) - 1.0;
+    return normalize(cube_direction(texel / (face_size * face_size), uv.x, uv.y));
+}
+
+vec3 weigh(LobeView v, vec3 direction, vec3 local_i, vec3 h, uint face_size) {
+    vec3 value = lobe_value(v, local_i, h);
+    float pdf = kurt_pdf(h, dot(v.local_o, h), v.lobe.roughness) + texel_pdf(direction, face_size);
+    return value * textureLod(maps, vec4(direction, v.layer), 0.0).rgb / max(pdf, 1e-20);
+}
+
+vec3 progressive(LobeView v, uint face_size, uint seed) {
+    vec3 sum = vec3(0.0);
+    for (uint k = 0u; k < push.batch_size; ++k) {
+        vec3 h = sample_kurt(recurrence_2d(k, seed), v.lobe.roughness);
+        vec3 local_i = 2.0 * dot(v.local_o, h) * h - v.local_o;
+        vec3 term = vec3(0.0);
+        if (dot(v.local_o, h) > 0.0 && local_i.z > 0.0) term = weigh(v, v.frame * local_i, local_i, h, face_size);
+        vec3 direction = draw_texel(recurrence_3d(k, seed), face_size);
+        local_i = direction * v.frame;
+        if (local_i.z > 0.0) term += weigh(v, direction, local_i, half_vector(local_i, v.local_o), face_size);
+        sum += term;
+    }
+    return sum / float(push.batch_size);
+}
+
+void main() {
+    PointToShade point = load_point();
+    MaterialRecord material = materials[point.material];
+    MapRecord map = map_records[material.map];
+
+    vec3 batch = vec3(0.0);
+    for (uint which = 0u; which < LOBE_COUNT; ++which) {
+        LobeRecord record = lobes[material.lobe_begin + which];
+        LobeView v;
+        v.lobe = point_lobe(point, material.lobe_begin + which, which);
+        v.frame[0] = record.rotation_cos * point.frame[0] + record.rotation_sin * point.frame[1];
+        v.frame[1] = record.rotation_cos * point.frame[1] - record.rotation_sin * point.frame[0];
+        v.frame[2] = point.frame[2];
+        v.local_o = point.omega_o * v.frame;
+        for (int k = 0; k < 3; ++k) v.frame[k] = environment_from_world(map, v.frame[k]);
+        v.omega_o = environment_from_world(map, point.omega_o);
+        v.alpha = record.alpha;
+        v.layer = float(map.layer);
+        uint seed = hash_uint(point.index * 4u + which) ^ hash_uint(push.batch + 0x51633e2du);
+        batch += IS_QUADRATURE ? quadrature(v, map.face_size) : progressive(v, map.face_size, seed);
+    }
+    if (!point.is_mine) return;
+    if (!is_finite(batch)) {
+        batch = vec3(0.0);
+        atomicAdd(counters.non_finite, 1u);
+    }
+    vec4 sum = push.batch == 0u ? vec4(0.0) : statistics[point.index];
+    float luminance = dot(batch, vec3(0.2126, 0.7152, 0.0722));
+    sum += vec4(batch, luminance * luminance);
+    statistics[point.index] = sum;
+
+    // Quadrature batches are parts of one sum, progressive ones are estimates of it.
+    vec3 radiance = IS_QUADRATURE ? sum.rgb : sum.rgb / float(push.batch + 1u);
+    if (HAS_DIFFUSE)
+        radiance += point_diffuse(point) * irradiance_over_pi(map.irradiance, environment_from_world(map, point.frame[2]));
+    radiance *= map.radiance_scale;
+    if (HAS_EMISSIVE) radiance += point_emissive(point);
+    store_radiance(point, radiance, 1.0);
+}

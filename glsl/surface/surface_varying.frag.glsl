@@ -1,0 +1,93 @@
+// Maps a metallic-roughness material to diffuse + lobes where textures or vertex colours make it vary.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+
+#include "lib/frame.glsl"
+#include "lib/metallic_roughness.glsl"
+#include "shared/constants.h"
+#include "shared/records.h"
+
+layout(constant_id = SPEC_TEXTURES) const uint TEXTURES = 0u;
+layout(constant_id = SPEC_VERTEX_COLOR) const bool HAS_VERTEX_COLOR = false;
+layout(constant_id = SPEC_ALPHA_MASK) const bool HAS_ALPHA_MASK = false;
+layout(constant_id = SPEC_DOUBLE_SIDED) const bool IS_DOUBLE_SIDED = false;
+
+layout(push_constant) uniform Push { DrawRecord draw; };
+layout(std430, binding = BINDING_SURFACE_MATERIALS) readonly buffer Materials { SurfaceRecord materials[]; };
+layout(std430, binding = BINDING_SURFACE_TEXTURE_RECORDS) readonly buffer TextureRecords { TextureRecord texture_records[]; };
+layout(binding = BINDING_SURFACE_TEXTURES) uniform sampler2D textures[TEXTURE_KINDS];
+
+layout(location = 0) in vec3 normal_world;
+layout(location = 1) in vec4 tangent_world;
+layout(location = 2) in vec4 uv;
+layout(location = 3) in vec4 color;
+
+layout(location = 0) out uvec2 surface;
+layout(location = 1) out vec4 diffuse_out;  // rgb: kd; a: roughness_x
+layout(location = 2) out vec4 specular_out; // rgb: weight r0; a: roughness_y
+layout(location = 3) out vec4 emissive_out; // rgb: radiance; a: weight at grazing
+layout(location = 4) out vec4 coat_out;     // x: weight, y: roughness
+
+SurfaceRecord material;
+
+bool has_texture(uint kind) { return (TEXTURES & (1u << kind)) != 0u; }
+
+// The kind's texel, or `absent` for kinds the material does not use: a constant, so that no lookup is compiled.
+vec4 read_texture(uint kind, vec4 absent) {
+    if (!has_texture(kind)) return absent;
+    TextureRecord record = texture_records[material.texture_begin + kind];
+    vec2 set = record.uv_set == 0u ? uv.xy : uv.zw;
+    mat2 scale_rotation = mat2(record.scale_rotation.xy, record.scale_rotation.zw);
+    return texture(textures[kind], scale_rotation * set + record.offset);
+}
+
+// Half-precision targets truncate on some drivers: round to nearest first.
+vec4 round_to_half(vec4 v) {
+    v = min(v, vec4(65504.0));
+    return vec4(unpackHalf2x16(packHalf2x16(v.xy)), unpackHalf2x16(packHalf2x16(v.zw)));
+}
+
+void main() {
+    material = materials[draw.material];
+    vec4 base = material.base_color * read_texture(TEXTURE_BASE_COLOR, vec4(1.0));
+    if (HAS_VERTEX_COLOR) base *= color;
+    if (HAS_ALPHA_MASK && base.a < material.emissive.a) discard;
+
+    vec3 normal = normalize(normal_world);
+    if (IS_DOUBLE_SIDED && !gl_FrontFacing) normal = -normal;
+    mat3 frame = frame_from_tangent(normal, tangent_world.xyz, tangent_world.w);
+    if (has_texture(TEXTURE_NORMAL)) {
+        vec3 mapped = read_texture(TEXTURE_NORMAL, vec4(0.5, 0.5, 1.0, 1.0)).xyz * 2.0 - 1.0;
+        mapped.xy *= material.normal_scale;
+        vec3 bent = frame * mapped;
+        normal = dot(bent, bent) > 1e-12 ? normalize(bent) : normal;
+        frame = frame_from_tangent(normal, frame[0], tangent_world.w);
+    }
+
+    vec4 direction_strength = read_texture(TEXTURE_ANISOTROPY, vec4(1.0, 0.5, 1.0, 1.0));
+    float anisotropy = material.anisotropy * direction_strength.b;
+    if (has_texture(TEXTURE_ANISOTROPY)) {
+        vec2 direction = direction_strength.rg * 2.0 - 1.0;
+        float length2 = dot(direction, direction);
+        direction = length2 > 1e-4 ? direction * inversesqrt(length2) : vec2(1.0, 0.0);
+        frame[0] = direction.x * frame[0] + direction.y * frame[1];
+    }
+
+    vec4 metallic_roughness = read_texture(TEXTURE_METALLIC_ROUGHNESS, vec4(1.0));
+    float specular = read_texture(TEXTURE_SPECULAR, vec4(1.0)).a;
+    vec3 specular_color = read_texture(TEXTURE_SPECULAR_COLOR, vec4(1.0)).rgb;
+    MappedMaterial mapped = map_metallic_roughness(base.rgb, material.metallic * metallic_roughness.b,
+                                                   material.roughness * metallic_roughness.g,
+                                                   min(material.specular.rgb * specular_color, vec3(1.0)) * specular,
+                                                   material.specular.a * specular, anisotropy);
+    float occlusion = 1.0 + material.occlusion_strength * (read_texture(TEXTURE_OCCLUSION, vec4(1.0)).r - 1.0);
+    vec3 emissive = material.emissive.rgb * read_texture(TEXTURE_EMISSIVE, vec4(1.0)).rgb;
+    float coat = material.clearcoat * read_texture(TEXTURE_CLEARCOAT, vec4(1.0)).r;
+    float coat_roughness = material.clearcoat_roughness * read_texture(TEXTURE_CLEARCOAT_ROUGHNESS, vec4(1.0)).g;
+
+    surface = pack_surface(normal, frame[0], tangent_world.w, draw.material);
+    diffuse_out = round_to_half(vec4(mapped.diffuse * occlusion, mapped.roughness.x));
+    specular_out = round_to_half(vec4(mapped.specular, mapped.roughness.y));
+    emissive_out = round_to_half(vec4(emissive, mapped.specular.r + mapped.grazing.r));
+    coat_out = round_to_half(vec4(coat, slope_from_perceptual(coat_roughness), 0.0, 0.0));
+}
