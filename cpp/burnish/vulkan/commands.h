@@ -24,21 +24,21 @@ std::span<const std::byte> push_bytes(const T& value) {
 
 struct ColorTarget {
     Image* image = nullptr;
-    VkImageView view = VK_NULL_HANDLE;      // null = level 0 of every layer
-    std::optional<VkClearColorValue> clear; // none = keep what is there
+    VkImageView view = VK_NULL_HANDLE;        // null = level 0 of every layer
+    std::optional<VkClearColorValue> clear{}; // none = keep what is there
     bool store = true;
 };
 
 struct DepthTarget {
     Image* image = nullptr;
     VkImageView view = VK_NULL_HANDLE;
-    std::optional<float> clear;
+    std::optional<float> clear{};
     bool store = true;
 };
 
 struct RenderingTargets {
-    std::vector<ColorTarget> colors;
-    std::optional<DepthTarget> depth;
+    std::vector<ColorTarget> colors{};
+    std::optional<DepthTarget> depth{};
     VkRect2D area{}; // also the first viewport and scissor; extent 0 = all of the first target's level 0
     uint32_t view_mask = 0; // multiview; then the views are arrays
 };

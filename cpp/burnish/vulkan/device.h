@@ -35,9 +35,10 @@ std::vector<DeviceInfo> list_devices();
 bool validation_from_environment();
 
 struct DeviceSettings {
-    std::string
-        name; // part of the device's name, any case; empty = best (discrete, integrated, virtual, CPU)
-    bool validation = validation_from_environment(); // validation layer with synchronization validation
+    // Part of the device's name, any case; empty = the best (discrete, integrated, virtual, CPU).
+    std::string name{};
+    // The validation layer with synchronization validation.
+    bool validation = validation_from_environment();
 };
 
 /// What the device can do beyond the features every device must have.

@@ -41,9 +41,9 @@ private:
 
 /// Viewport and scissor are dynamic. Blending is off.
 struct GraphicsSettings {
-    std::vector<VkVertexInputBindingDescription> vertex_bindings;
-    std::vector<VkVertexInputAttributeDescription> vertex_attributes;
-    std::vector<VkFormat> color_formats;
+    std::vector<VkVertexInputBindingDescription> vertex_bindings{};
+    std::vector<VkVertexInputAttributeDescription> vertex_attributes{};
+    std::vector<VkFormat> color_formats{};
     VkFormat depth_format = VK_FORMAT_UNDEFINED;       // undefined = no depth test
     VkCompareOp depth_compare = VK_COMPARE_OP_GREATER; // reverse z: near = 1, far = 0
     bool depth_write = true;
@@ -51,8 +51,8 @@ struct GraphicsSettings {
     VkFrontFace front_face = VK_FRONT_FACE_COUNTER_CLOCKWISE;
     VkPrimitiveTopology topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST;
     VkSampleCountFlagBits samples = VK_SAMPLE_COUNT_1_BIT;
-    uint32_t view_mask = 0;            // multiview: bit i renders layer i
-    SpecializationConstants constants; // ids either shader has
+    uint32_t view_mask = 0;              // multiview: bit i renders layer i
+    SpecializationConstants constants{}; // ids either shader has
 };
 
 class GraphicsPipeline {
