@@ -104,15 +104,19 @@ TEST(Validation, MissingBarrierIsAnError) {
     const auto device = validated_device();
     if (!device) GTEST_SKIP() << "vulkan-validationlayers is not installed";
     const CopyWords probe(device);
-    Commands commands(device);
-    probe.record(commands);
-    probe.record(commands);
-    expect_contains(error_text<VulkanError>([&] { commands.submit(); }), "WRITE_AFTER_WRITE");
-    Commands with_barrier(device);
-    probe.record(with_barrier);
-    with_barrier.barrier();
-    probe.record(with_barrier);
-    with_barrier.submit();
+    DescriptorSet backwards(probe.pipeline);
+    backwards.bind(0, probe.target).bind(1, probe.source);
+    for (const bool has_barrier : {false, true}) {
+        Commands commands(device);
+        probe.record(commands);
+        if (has_barrier) commands.barrier();
+        commands.dispatch(probe.pipeline, backwards, push_bytes(probe.push), 1);
+        if (has_barrier) {
+            commands.submit();
+        } else {
+            expect_contains(error_text<VulkanError>([&] { commands.submit(); }), "SYNC-HAZARD");
+        }
+    }
 }
 
 TEST(Ownership, ObjectsOutliveTheDevicePointer) {
