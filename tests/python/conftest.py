@@ -1,0 +1,42 @@
+"""Fixtures every test may ask for."""
+
+import os
+from pathlib import Path
+
+# Read by the library when a device is made: a validation error then fails the test that caused it.
+os.environ.setdefault("BURNISH_VALIDATION", "1")
+
+import numpy as np
+import pytest
+
+REPOSITORY = Path(__file__).resolve().parents[2]
+
+
+@pytest.fixture(autouse=True)
+def strict_arithmetic():
+    """Division by zero, overflow and invalid operations raise; a density's far tail may underflow to 0."""
+    with np.errstate(divide="raise", over="raise", invalid="raise", under="ignore"):
+        yield
+
+
+@pytest.fixture
+def rng():
+    """Random numbers that are the same in every run."""
+    return np.random.default_rng(20140619)
+
+
+@pytest.fixture(scope="session")
+def shared_data():
+    """Folder of environments, scenes and hostile files beside the repository."""
+    path = REPOSITORY.parent / "shared" / "data"
+    if not path.is_dir():
+        pytest.skip(f"needs the test files in {path}")
+    return path
+
+
+@pytest.fixture(scope="session")
+def device():
+    """Return the one Vulkan device of the session."""
+    import burnish
+
+    return burnish.Device()
