@@ -63,12 +63,12 @@ def test_border_continues_directions_over_edges():
 
 
 def test_border_reads_as_deep_as_it_is_outside():
-    # Beyond +X's edge at u = +1 lies -Z; texel k outside is its column k from the side of u = -1, rows unchanged.
+    # Beyond +X's edge at u = +1 lies -Z: its columns from the side of u = -1, rows unchanged.
     size = 8
     faces = np.arange(6 * size * size, dtype=np.float64).reshape(6, size, size, 1)
     bordered = add_border(faces, 3)
     np.testing.assert_array_equal(bordered[0, 3:-3, -3:], faces[5, :, :3])
-    # Above +X's edge at v = -1 lies +Y, turned: its columns from the side of u = +1, rows against +X's columns.
+    # Above +X's edge at v = -1 lies +Y, turned: its columns from the side of u = +1.
     np.testing.assert_array_equal(bordered[0, 2, 3:-3, 0], faces[2, ::-1, -1, 0])
     np.testing.assert_array_equal(bordered[0, 0, 3:-3, 0], faces[2, ::-1, -3, 0])
 

@@ -11,7 +11,16 @@ from burnish.oracle.frame import (
 )
 
 HARD_NORMALS = normalize(
-    [[0, 0, 1], [0, 0, -1], [1e-9, 0, -1], [0, 1e-12, -1], [1, 0, 0], [0, -1, 0], [1, 1, 1e-300], [1, 1, -1e-300]]
+    [
+        [0, 0, 1],
+        [0, 0, -1],
+        [1e-9, 0, -1],
+        [0, 1e-12, -1],
+        [1, 0, 0],
+        [0, -1, 0],
+        [1, 1, 1e-300],
+        [1, 1, -1e-300],
+    ]
 )
 
 
@@ -28,7 +37,10 @@ def test_basis_is_right_handed_everywhere(rng):
 
 
 def test_frame_keeps_the_tangents_side(rng):
-    n, t = normalize(rng.normal(size=(1000, 3))), rng.normal(size=(1000, 3)) * 10.0 ** rng.uniform(-6, 6, (1000, 1))
+    n, t = (
+        normalize(rng.normal(size=(1000, 3))),
+        rng.normal(size=(1000, 3)) * 10.0 ** rng.uniform(-6, 6, (1000, 1)),
+    )
     tangent, bitangent = frame_from_tangent(n, t)
     assert_right_handed(tangent, bitangent, n)
     assert np.all(dot(tangent, t) > 0)
@@ -67,5 +79,7 @@ def test_octahedral_round_trip(rng):
 
 
 def test_octahedral_corners():
-    np.testing.assert_allclose(octahedral_encode([[0, 0, 1], [1, 0, 0], [0, -1, 0]]), [[0, 0], [1, 0], [0, -1]])
+    np.testing.assert_allclose(
+        octahedral_encode([[0, 0, 1], [1, 0, 0], [0, -1, 0]]), [[0, 0], [1, 0], [0, -1]]
+    )
     np.testing.assert_allclose(np.abs(octahedral_encode([0, 0, -1])), [1, 1])

@@ -42,7 +42,9 @@ def test_projected_density_integrates_to_one_over_plain_angles():
     theta = (np.arange(nodes) + 0.5) / nodes * np.pi / 2
     phi = (np.arange(400) + 0.5) / 400 * 2 * np.pi
     theta, phi = theta[:, None], phi[None, :]
-    h = np.stack(np.broadcast_arrays(np.sin(theta) * np.cos(phi), np.sin(theta) * np.sin(phi), np.cos(theta)), -1)
+    h = np.stack(
+        np.broadcast_arrays(np.sin(theta) * np.cos(phi), np.sin(theta) * np.sin(phi), np.cos(theta)), -1
+    )
     cell = np.sin(theta) * (np.pi / 2 / nodes) * (2 * np.pi / 400)
     assert np.sum(kurt_d(h, *m) * h[..., 2] * cell) == pytest.approx(1, abs=1e-5)
 
@@ -97,7 +99,7 @@ def test_grazing_factor_is_finite_everywhere():
 def test_samples_follow_their_density(rng, m):
     count, cells = 200_000, 20
     h = kurt_sample(rng.random(count), rng.random(count), *m)
-    # In units of roughness the slopes are round: cells of equal chance in radius and azimuth, from D's integral.
+    # Cells in radius and azimuth of the slopes in units of roughness; their chance by quadrature of D cos_h.
     s = np.linspace(0, 3.5, cells + 1)
     x, w = np.polynomial.legendre.leggauss(8)
     middle, half = (s[1:] + s[:-1]) / 2, np.diff(s) / 2
@@ -126,7 +128,7 @@ def test_samples_at_the_ends_of_their_range():
 
 
 def test_density_of_directions_integrates_to_one(rng):
-    # Over directions below the horizon too; importance-sampled by the cosine about the mirror direction's axis.
+    # Over directions below the horizon too, uniformly over the sphere.
     m, o = (0.4, 0.2), normalize([0.3, -0.5, 0.8])
     z, phi = rng.uniform(-1, 1, 10**6), rng.uniform(0, 2 * np.pi, 10**6)
     i = np.stack([np.sqrt(1 - z * z) * np.cos(phi), np.sqrt(1 - z * z) * np.sin(phi), z], axis=-1)

@@ -26,7 +26,9 @@ def test_harmonics_are_orthonormal():
 
 def test_irradiance_of_constant_light_is_pi(rng):
     coefficients = project_cube(np.ones((6, 16, 16, 3)))
-    np.testing.assert_allclose(irradiance(coefficients, normalize(rng.normal(size=(50, 3)))), np.pi, rtol=1e-3)
+    np.testing.assert_allclose(
+        irradiance(coefficients, normalize(rng.normal(size=(50, 3)))), np.pi, rtol=1e-3
+    )
 
 
 def test_irradiance_of_a_linear_and_a_quadratic_lobe(rng):

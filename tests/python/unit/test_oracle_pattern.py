@@ -24,7 +24,13 @@ def test_published_counts(roughness, spacing, circles, threshold, count):
 
 @pytest.mark.parametrize(
     ("roughness", "samples", "threshold", "count"),
-    [(0.1, 19, 0.1, 19), (0.1, 30, 0.1, 30), (0.1, 14, 0.2, 14), ((0.2, 0.075), 17, 0.2, 17), (0.15, 270, 0.01, 271)],
+    [
+        (0.1, 19, 0.1, 19),
+        (0.1, 30, 0.1, 30),
+        (0.1, 14, 0.2, 14),
+        ((0.2, 0.075), 17, 0.2, 17),
+        (0.15, 270, 0.01, 271),
+    ],
 )
 def test_budget_finds_the_published_patterns(roughness, samples, threshold, count):
     assert len(choose_pattern(roughness, samples, threshold)) == count
@@ -97,7 +103,9 @@ def test_solid_angle_of_the_lobe(mx, my, threshold):
 
 
 def test_radical_inverse_mirrors_bits():
-    np.testing.assert_array_equal(radical_inverse([0, 1, 2, 3, 4, 2**31]), [0, 0.5, 0.25, 0.75, 0.125, 2.0**-32])
+    np.testing.assert_array_equal(
+        radical_inverse([0, 1, 2, 3, 4, 2**31]), [0, 0.5, 0.25, 0.75, 0.125, 2.0**-32]
+    )
 
 
 @pytest.mark.parametrize("count", [1, 14, 1000])
