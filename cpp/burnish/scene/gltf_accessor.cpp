@@ -98,53 +98,53 @@ std::vector<uint8_t> AccessorReader::read_view(int view, const std::string& wher
     return {bytes.data, bytes.data + length};
 }
 
-void AccessorReader::read_floats(int index, uint32_t component_count, float* values, const std::string& where) const {
+template <typename Visit>
+void AccessorReader::visit(int index, const std::string& where, const Visit& visit_element) const {
     const tinygltf::Accessor& accessor = document_.model.accessors[index];
-    if (components(index) != component_count)
-        throw FileError(document_.path, message(where, ": expected ", component_count, " components, got ", components(index)));
-    uint32_t size = component_size(accessor.componentType), element_size = size * component_count;
-    auto read_element = [&](const uint8_t* from, float* to) {
-        for (uint32_t i = 0; i < component_count; ++i)
-            to[i] = read_component(from + i * size, accessor.componentType, accessor.normalized);
-    };
-
+    uint32_t element_size = component_size(accessor.componentType) * components(index);
     Elements source = elements(accessor.bufferView, accessor.byteOffset, accessor.count, element_size, true, where);
     if (source.data)
         for (size_t i = 0; i < accessor.count; ++i)
-            read_element(source.data + i * source.stride, values + i * component_count);
+            visit_element(i, source.data + i * source.stride);
     if (!accessor.sparse.isSparse) return;
 
     const auto& sparse = accessor.sparse;
-    uint32_t index_size = component_size(sparse.indices.componentType);
-    uint64_t sparse_count = static_cast<uint64_t>(sparse.count);
-    Elements at = elements(sparse.indices.bufferView, static_cast<uint64_t>(sparse.indices.byteOffset), sparse_count,
-                           index_size, false, where + " sparse indices");
-    Elements replacing = elements(sparse.values.bufferView, static_cast<uint64_t>(sparse.values.byteOffset), sparse_count,
+    uint64_t count = static_cast<uint64_t>(sparse.count);
+    Elements at = elements(sparse.indices.bufferView, static_cast<uint64_t>(sparse.indices.byteOffset), count,
+                           component_size(sparse.indices.componentType), false, where + " sparse indices");
+    Elements replacing = elements(sparse.values.bufferView, static_cast<uint64_t>(sparse.values.byteOffset), count,
                                   element_size, false, where + " sparse values");
-    for (size_t i = 0; i < sparse_count; ++i) {
+    for (size_t i = 0; i < count; ++i) {
         uint32_t element = read_index(at.data + i * at.stride, sparse.indices.componentType);
         if (element >= accessor.count)
             throw FileError(document_.path, message(where, " sparse indices: expected each below ", accessor.count,
                                                     ", got ", element));
-        read_element(replacing.data + i * replacing.stride, values + size_t{element} * component_count);
+        visit_element(element, replacing.data + i * replacing.stride);
     }
 }
 
-std::vector<uint32_t> AccessorReader::read_indices(int index, const std::string& where) {
+void AccessorReader::read_floats(int index, uint32_t component_count, float* values, const std::string& where) const {
     const tinygltf::Accessor& accessor = document_.model.accessors[index];
-    int type = accessor.componentType;
+    if (components(index) != component_count)
+        throw FileError(document_.path, message(where, ": expected ", component_count, " components, got ", components(index)));
+    uint32_t size = component_size(accessor.componentType);
+    visit(index, where, [&](size_t element, const uint8_t* from) {
+        for (uint32_t i = 0; i < component_count; ++i)
+            values[element * component_count + i] =
+                read_component(from + i * size, accessor.componentType, accessor.normalized);
+    });
+}
+
+std::vector<uint32_t> AccessorReader::read_indices(int index, const std::string& where) {
+    int type = component_type(index);
     bool is_unsigned = type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE || type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT
                        || type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT;
     if (!is_unsigned || components(index) != 1)
         throw FileError(document_.path, message(where, ": expected unsigned scalars, got component type ", type, " with ",
                                                 components(index), " components"));
-    if (accessor.sparse.isSparse)
-        throw FileError(document_.path, where + ": expected plain indices, got a sparse accessor");
-    charge(accessor.count * sizeof(uint32_t), where);
-    std::vector<uint32_t> indices(accessor.count);
-    Elements source = elements(accessor.bufferView, accessor.byteOffset, accessor.count, component_size(type), true, where);
-    for (size_t i = 0; source.data && i < indices.size(); ++i)
-        indices[i] = read_index(source.data + i * source.stride, type);
+    charge(count(index) * sizeof(uint32_t), where);
+    std::vector<uint32_t> indices(count(index));
+    visit(index, where, [&](size_t element, const uint8_t* from) { indices[element] = read_index(from, type); });
     return indices;
 }
 

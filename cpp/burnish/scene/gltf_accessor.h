@@ -46,6 +46,8 @@ private:
     };
     Elements elements(int view, uint64_t offset, uint64_t element_count, uint64_t element_size, bool is_strided,
                       const std::string& where) const;
+    /// Calls visit_element(index, bytes) for every element of the buffer view, then for every sparse replacement.
+    template <typename Visit> void visit(int accessor, const std::string& where, const Visit& visit_element) const;
     void read_floats(int accessor, uint32_t component_count, float* values, const std::string& where) const;
 
     const Document& document_;

@@ -210,6 +210,21 @@ void move_sources(Document& document, json& root) {
         root.erase(name);
 }
 
+/// Index accessors by mesh and primitive, taken out of the JSON: tinygltf refuses one without a buffer view, which is
+/// valid glTF (all zero, or sparse).
+std::vector<std::vector<int>> take_indices(json& root) {
+    std::vector<std::vector<int>> taken;
+    if (!root.count("meshes")) return taken;
+    for (json& mesh : root["meshes"]) {
+        taken.emplace_back();
+        for (json& primitive : mesh["primitives"]) {
+            taken.back().push_back(primitive.value("indices", -1));
+            primitive.erase("indices");
+        }
+    }
+    return taken;
+}
+
 } // namespace
 
 Document parse_document(const std::string& path, const std::string& text) {
@@ -234,6 +249,7 @@ Document parse_document(const std::string& path, const std::string& text) {
     if (root.count("skins") && !root["skins"].empty())
         document.warnings.push_back("skins are not applied: meshes are drawn in their base pose");
     move_sources(document, root);
+    std::vector<std::vector<int>> indices = take_indices(root);
 
     tinygltf::Model structure;
     tinygltf::TinyGLTF reader;
@@ -248,6 +264,9 @@ Document parse_document(const std::string& path, const std::string& text) {
         std::replace(errors.begin(), errors.end(), '\n', ' ');
         throw FileError(path, errors.empty() ? "cannot be read as glTF" : errors);
     }
+    for (size_t mesh = 0; mesh < indices.size(); ++mesh)
+        for (size_t primitive = 0; primitive < indices[mesh].size(); ++primitive)
+            structure.meshes.at(mesh).primitives.at(primitive).indices = indices[mesh][primitive];
     structure.buffers = std::move(document.model.buffers);
     structure.images = std::move(document.model.images);
     document.model = std::move(structure);
