@@ -1,0 +1,77 @@
+"""Glossy materials under environment light on Vulkan: the picture, its price in milliseconds, and its error.
+
+Load or build a `Scene`, give it an `Environment`, and call `render`; or call `shade` on points of your own.
+What a frame cost and what was left out is in ``frame.report``; how far it is from the truth,
+``frame.error(reference)`` says.
+"""
+
+from importlib.metadata import PackageNotFoundError
+from importlib.metadata import version as _version
+
+from burnish._extension import load_failure as _load_failure
+from burnish.doctor import DoctorReport, doctor
+from burnish.frame import Frame
+from burnish.report import Report
+
+try:
+    __version__ = _version("burnish")
+except PackageNotFoundError:  # used from a source tree that is not installed
+    __version__ = "0+unknown"
+
+__all__ = [
+    "Camera",
+    "Device",
+    "DoctorReport",
+    "Environment",
+    "FileError",
+    "Frame",
+    "Importance",
+    "KurtLobe",
+    "Material",
+    "Mesh",
+    "Object",
+    "Reference",
+    "Regular",
+    "Report",
+    "Scene",
+    "VulkanError",
+    "__version__",
+    "doctor",
+    "images",
+    "list_devices",
+    "render",
+    "sample_pattern",
+    "shade",
+]
+
+if _load_failure() is None:
+    from burnish import images
+    from burnish._core import (
+        Camera,
+        Device,
+        Environment,
+        FileError,
+        Importance,
+        KurtLobe,
+        Material,
+        Mesh,
+        Object,
+        Reference,
+        Regular,
+        Scene,
+        VulkanError,
+        list_devices,
+        sample_pattern,
+    )
+    from burnish._methods import attach as _attach
+    from burnish.rendering import render, shade
+
+    _attach()
+
+
+def __getattr__(name: str) -> object:
+    # `burnish doctor` must run without the compiled part, so only the use of what needs it fails.
+    reason = _load_failure()
+    if name in __all__ and reason is not None:
+        raise ImportError(f"burnish.{name}: {reason}")
+    raise AttributeError(f"module 'burnish' has no attribute {name!r}")

@@ -1,0 +1,188 @@
+"""The command line: ``burnish render``, ``burnish explain``, ``burnish doctor``."""
+
+import argparse
+import sys
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from burnish._cli_arguments import make_parser, parse_sampler
+from burnish._extension import load_failure
+from burnish._progress import progress_bar
+
+if TYPE_CHECKING:
+    from burnish import Camera, Environment, Frame, Scene
+    from burnish.rendering import Sampler
+
+
+def load_scene(name: str) -> "Scene":
+    """Load a glTF file, or make the built-in scene of that name."""
+    from burnish import Scene, builtin
+
+    if name in builtin.SCENES:
+        return builtin.make_scene(name)
+    if Path(name).suffix == "" and not Path(name).exists():
+        raise ValueError(f"SCENE: expected a file or one of {', '.join(builtin.SCENES)}, got {name!r}")
+    with progress_bar(f"loading {Path(name).name}"):
+        return Scene.from_file(name)
+
+
+def load_environment(name: str, face_size: int | None, rotation_degrees: float) -> "Environment":
+    """Load an environment file, or make the built-in environment of that name, turned about the y axis."""
+    from burnish import Environment, builtin
+
+    if name in builtin.ENVIRONMENTS:
+        environment = builtin.make_environment(name, face_size or 256)
+    elif Path(name).suffix == "" and not Path(name).exists():
+        raise ValueError(f"--env: expected a file or one of {', '.join(builtin.ENVIRONMENTS)}, got {name!r}")
+    else:
+        with progress_bar(f"loading {Path(name).name}"):
+            environment = Environment.from_file(name, face_size=face_size)
+    if rotation_degrees:
+        environment.rotation = rotation_degrees
+    return environment
+
+
+def find_camera(scene: "Scene", key: str | None) -> "Camera | None":
+    """Find a camera by name, or by index where no name fits; None for no key."""
+    if key is None:
+        return None
+    cameras = scene.cameras
+    for camera in cameras:
+        if camera.name == key:
+            return camera
+    if key.isdecimal() and int(key) < len(cameras):
+        return cameras[int(key)]
+    names = ", ".join(f"{i} ({camera.name or 'no name'})" for i, camera in enumerate(cameras))
+    raise ValueError(f"--camera: expected one of {names or 'none: the scene has no camera'}, got {key!r}")
+
+
+def _prepare(options: argparse.Namespace) -> "Scene":
+    scene = load_scene(options.scene)
+    scene.environment = load_environment(options.env, options.face_size, options.rotate_env)
+    if options.no_background:
+        scene.show_background = False
+    return scene
+
+
+def _require_outputs(options: argparse.Namespace) -> None:
+    """Find out before the work that a file could not be written."""
+    for path in [*map(Path, options.output), *([Path(options.report)] if options.report else [])]:
+        if not path.parent.is_dir():
+            raise ValueError(f"{path}: expected an existing folder, got {path.parent}")
+    for name in options.output:
+        if Path(name).suffix.lower() not in (".exr", ".png"):
+            raise ValueError(f"--output: expected a name ending in .exr or .png, got {name!r}")
+
+
+def run_render(options: argparse.Namespace) -> int:
+    """``burnish render``."""
+    from burnish import Device, Reference, render
+
+    _require_outputs(options)
+    sampler = parse_sampler(options.sampler)
+    device = Device(name=options.device) if options.device else None
+    scene = _prepare(options)
+    camera = find_camera(scene, options.camera)
+
+    def draw(what: str, sampler: "Sampler") -> "Frame":
+        with progress_bar(what) as advance:
+            return render(
+                scene, camera, options.size, sampler, device, options.spp, options.filter, progress=advance
+            )
+
+    frame = draw("rendering", sampler)
+    for name in options.output:
+        frame.save(name, exposure=options.exposure)
+    if options.report:
+        frame.report.save(options.report)
+    if not options.quiet:
+        print(frame.report)
+    if options.compare:
+        error = frame.error(draw("reference", Reference()))
+        print(f"error against the reference: {error:.5f} relative RMSE, linear radiance, where objects are")
+    if not options.quiet:
+        for name in [*options.output, *([options.report] if options.report else [])]:
+            print(f"wrote {name}")
+    return 0
+
+
+def _is_software() -> bool:
+    """Whether the device that would be taken is a CPU; yes where there is none."""
+    from burnish import Device, VulkanError
+
+    try:
+        return Device().is_software
+    except VulkanError:
+        return True
+
+
+def format_plan(plan: dict[str, Any]) -> str:
+    """Lay out a plan: passes, effects on and off, pipelines, each with its reason."""
+
+    def lines(title: str, rows: list[tuple[str, str]]) -> list[str]:
+        width = max((len(name) for name, _ in rows), default=0)
+        return [f"{title}:", *(f"  {name:<{width}}  {reason}" for name, reason in rows)] if rows else []
+
+    effects = plan["effects"]
+    classes = [
+        (f"{', '.join(entry['effects']) or 'plain'}; {entry['table']}", entry["reason"])
+        for entry in plan["classes"]
+    ]
+    blocks = [
+        lines("passes", [(entry["name"], entry["reason"]) for entry in plan["passes"]]),
+        lines("on", [(entry["name"], entry["reason"]) for entry in effects if entry["on"]]),
+        lines("off", [(entry["name"], entry["reason"]) for entry in effects if not entry["on"]]),
+        lines("shade pipelines", classes),
+        [f"warning: {warning}" for warning in plan["warnings"]],
+    ]
+    return "\n\n".join("\n".join(block) for block in blocks if block)
+
+
+def run_explain(options: argparse.Namespace) -> int:
+    """``burnish explain``."""
+    from burnish.rendering import plan
+
+    sampler = parse_sampler(options.sampler)
+    print(format_plan(plan(_prepare(options), sampler, options.spp, options.filter, _is_software())))
+    return 0
+
+
+def run_doctor(options: argparse.Namespace) -> int:
+    """``burnish doctor``: 0 when this machine can render, else 1."""
+    from burnish.doctor import examine
+
+    report = examine(options.device or "")
+    print(report)
+    return 0 if report.can_render else 1
+
+
+COMMANDS = {"render": run_render, "explain": run_explain, "doctor": run_doctor}
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Run the command line.
+
+    Parameters
+    ----------
+    arguments : sequence of str or None
+        None: those of the process.
+
+    Returns
+    -------
+    code : int
+        0 done; 1 this machine cannot render (doctor); 2 an error, in one line on stderr; 130 interrupted.
+    """
+    options = make_parser().parse_args(arguments)
+    try:
+        reason = load_failure()
+        if reason is not None and options.command != "doctor":
+            raise ImportError(reason)
+        code: int = COMMANDS[options.command](options)
+        return code
+    except KeyboardInterrupt:
+        return 130
+    except (ValueError, OSError, RuntimeError, ImportError, MemoryError) as error:
+        text = " ".join(str(error).split()) or type(error).__name__
+        print(f"burnish {options.command}: error: {text}", file=sys.stderr)
+        return 2

@@ -1,0 +1,100 @@
+"""What ``scripts/demo`` runs: glossy objects under a real sky, the price of the picture, and its error."""
+
+import argparse
+import sys
+from collections.abc import Sequence
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from burnish import Camera, Environment, Frame, Material, Mesh, Reference, Regular, Scene, builtin, render
+from burnish._progress import progress_bar
+from burnish.builtin import COPPER, GOLD, STEEL, lacquer, metal
+
+WORLD = Path("/usr/share/blender/datafiles/studiolights/world/sunset.exr")
+"""From Debian's package blender-data; the built-in studio stands in where it is absent."""
+
+COMPARED_SIZE = (180, 320)
+
+
+def make_environment(path: Path) -> Environment:
+    """Load the world, or make the built-in studio where there is no such file."""
+    if path.is_file():
+        environment = Environment.from_file(path, rotation=WORLD_TURN_DEGREES)
+        print(f"environment: {path}")
+        return environment
+    print(f"environment: the built-in studio, since {path} is absent (sudo apt-get install blender-data)")
+    return builtin.make_environment("studio")
+
+
+WORLD_TURN_DEGREES = 205.0
+
+
+def _at(x: float, y: float, z: float, scale: float = 1.0, tilt: float = 0.0) -> NDArray[np.float64]:
+    """Place at a point: scale, then tilt by radians about the x axis."""
+    matrix = np.diag([scale, scale, scale, 1.0])
+    c, s = np.cos(tilt), np.sin(tilt)
+    matrix[1:3, 1:3] = scale * np.array([[c, -s], [s, c]])
+    matrix[:3, 3] = (x, y, z)
+    return matrix
+
+
+def make_scene() -> Scene:
+    """Arrange a brushed shader ball, spheres and rings on a polished floor."""
+    scene = Scene()
+    ball = Scene.shader_ball(Material()).meshes[0]
+    sphere, ring = Mesh.sphere(), Mesh.torus(1.0, 0.28)
+    scene.add(Mesh.plane(60.0), lacquer((0.16, 0.165, 0.18), 0.12), name="floor")
+    scene.add(ball, metal(COPPER, (0.28, 0.06)), _at(0.0, 0.0, 0.0), "brushed ball")
+    scene.add(sphere, metal(GOLD, (0.12, 0.12)), _at(-2.45, 0.8, 0.35, 0.8), "gold")
+    scene.add(sphere, lacquer((0.42, 0.02, 0.03), 0.05), _at(2.35, 0.75, 0.5, 0.75), "red lacquer")
+    scene.add(sphere, metal(STEEL, (0.03, 0.03)), _at(-1.35, 0.45, 1.75, 0.45), "steel")
+    scene.add(sphere, lacquer((0.02, 0.09, 0.32), 0.15), _at(1.3, 0.4, 1.85, 0.4), "blue lacquer")
+    scene.add(ring, metal(STEEL, (0.35, 0.07)), _at(-4.1, 1.2, -1.3, 0.95, 1.25), "brushed ring")
+    scene.add(ring, metal((0.35, 0.62, 0.6), (0.2, 0.2)), _at(4.05, 1.2, -1.3, 0.95, 1.25), "teal ring")
+    scene.add_camera(Camera.look_at((0.0, 2.15, 8.2), (0.0, 0.98, 0.0), vertical_fov=0.52))
+    return scene
+
+
+def draw(scene: Scene, size: tuple[int, int], sampler: Regular | Reference, spp: int, what: str) -> Frame:
+    """Render with a progress bar."""
+    with progress_bar(what) as advance:
+        return render(scene, size=size, sampler=sampler, spp=spp, progress=advance)
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Render the demo.
+
+    Parameters
+    ----------
+    arguments : sequence of str or None
+        None: those of the process.
+    """
+    parser = argparse.ArgumentParser(prog="burnish.demo", description=__doc__)
+    parser.add_argument("--out", type=Path, default=Path("out"), help="folder for demo.exr and demo.png")
+    parser.add_argument("--env", type=Path, default=WORLD, help=f"environment (default: {WORLD})")
+    parser.add_argument("--spp", type=int, default=4, help="jittered frames to accumulate (default: 4)")
+    options = parser.parse_args(arguments)
+
+    options.out.mkdir(parents=True, exist_ok=True)
+    scene = make_scene()
+    scene.environment = make_environment(options.env)
+    frame = draw(scene, (540, 960), Regular(samples=14), options.spp, "rendering")
+    for name in ("demo.exr", "demo.png"):
+        frame.save(options.out / name)
+        print(f"wrote {options.out / name}")
+    print(f"\n{frame.report}\n")
+
+    height, width = COMPARED_SIZE
+    few = draw(scene, COMPARED_SIZE, Regular(samples=14), 1, "14 samples, small")
+    truth = draw(scene, COMPARED_SIZE, Reference(), 1, "reference, small")
+    print(
+        f"error of 14 samples against the reference, both rendered at {width} x {height} and 1 spp: "
+        f"{few.error(truth):.4f} (relative RMSE of linear radiance, where objects are)"
+    )
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

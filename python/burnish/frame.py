@@ -1,0 +1,100 @@
+"""One rendered picture with its report."""
+
+import os
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from burnish.report import Report
+
+FloatArray = NDArray[np.float32]
+
+
+@dataclass(eq=False, repr=False)
+class Frame:
+    """Pixels of one picture, row 0 at the top, and what they cost.
+
+    Parameters
+    ----------
+    color : (h, w, 3) float32
+        Linear Rec. 709 radiance, the background included where the scene shows it.
+    alpha : (h, w) float32
+        Share of the pixel that objects cover, 0..1.
+    depth : (h, w) float32
+        Distance along the camera's axis; infinite where no object is.
+    normal : (h, w, 3) float32
+        World frame, unit length; 0 where no object is.
+    report : Report
+        Milliseconds per pass, effects and reasons, warnings.
+    """
+
+    color: FloatArray
+    alpha: FloatArray
+    depth: FloatArray
+    normal: FloatArray
+    report: Report
+
+    def __repr__(self) -> str:
+        height, width = self.color.shape[:2]
+        return f"Frame({width}x{height}, {self.report.total_ms:.1f} ms)"
+
+    def save(self, path: str | os.PathLike[str], exposure: float = 0.0) -> None:
+        """Write the picture.
+
+        Parameters
+        ----------
+        path : path
+            ``.exr``: float32 linear radiance and coverage (R, G, B, A), depth (Z), normals (N.X, N.Y, N.Z),
+            and the report as JSON in the header attribute ``burnish``.
+            ``.png``: 8-bit sRGB, clipped, without alpha.
+        exposure : float
+            Stops, for ``.png`` only: radiance is multiplied by 2**exposure. OpenEXR files keep the radiance.
+
+        Raises
+        ------
+        ValueError
+            If the name ends otherwise.
+        FileError
+            If the file cannot be written.
+        """
+        from burnish import images
+
+        suffix = Path(path).suffix.lower()
+        if suffix == ".exr":
+            channels = {"RGB": self.color, "A": self.alpha, "Z": self.depth}
+            channels |= {f"N.{axis}": self.normal[..., i] for i, axis in enumerate("XYZ")}
+            images.write_exr(path, channels, metadata={"burnish": self.report.to_json(indent=None)})
+        elif suffix == ".png":
+            images.write_png(path, self.color, exposure=exposure)
+        else:
+            raise ValueError(f"path: expected a name ending in .exr or .png, got {os.fspath(path)!r}")
+
+    def error(self, reference: "Frame") -> float:
+        """Measure how far this picture is from another one of the same view.
+
+        The relative root mean square error of linear radiance, where the reference shows objects (alpha > 0):
+        ``sqrt(mean((color - reference.color)**2) / mean(reference.color**2))``. The background is left out:
+        no sampler touches it.
+
+        Parameters
+        ----------
+        reference : Frame
+            Same size; usually rendered with ``Reference()``.
+
+        Returns
+        -------
+        error : float
+            0 when equal; NaN when the reference shows no object, or only black ones.
+        """
+        if self.color.shape != reference.color.shape:
+            expected, got = self.color.shape[:2], reference.color.shape[:2]
+            raise ValueError(f"reference: expected a frame of shape {expected}, got {got}")
+        covered = reference.alpha > 0
+        truth = reference.color[covered].astype(np.float64)
+        energy = float(np.sum(truth**2))
+        if energy == 0.0:
+            return float("nan")
+        difference = self.color[covered].astype(np.float64) - truth
+        return float(np.sqrt(np.sum(difference**2) / energy))

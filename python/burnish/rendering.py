@@ -1,0 +1,193 @@
+"""Frames and shaded points: arguments are checked here, the work is the extension's."""
+
+from collections.abc import Callable
+from typing import Any, Literal, TypeAlias
+
+import numpy as np
+from numpy.typing import NDArray
+
+from burnish import _core
+from burnish._device import default_device
+from burnish.frame import Frame
+from burnish.report import Report
+
+Sampler: TypeAlias = _core.Regular | _core.Importance | _core.Reference
+Filter: TypeAlias = Literal["box", "gauss4", "gauss6"]
+FloatArray: TypeAlias = NDArray[np.float32]
+
+FILTERS = ("box", "gauss4", "gauss6")
+LARGEST_EDGE_PX = 16384
+
+
+def require_filter(filter: str) -> None:
+    """Raise ValueError unless the name is one of `FILTERS`."""
+    if filter not in FILTERS:
+        raise ValueError(f"filter: expected one of {', '.join(FILTERS)}, got {filter!r}")
+
+
+def _require_directions(array: Any, name: str, count: int | None = None) -> None:
+    """Raise ValueError unless the array can be handed over as it is: nothing is cast or copied silently."""
+    rows = "n" if count is None else str(count)
+    expected = f"{name}: expected C-contiguous float32 of shape ({rows}, 3), got "
+    if not isinstance(array, np.ndarray):
+        raise ValueError(f"{expected}{type(array).__name__}")
+    if array.ndim != 2 or array.shape[1] != 3 or (count is not None and len(array) != count):
+        raise ValueError(f"{expected}shape {array.shape}")
+    if array.dtype != np.float32 or not array.flags.c_contiguous:
+        layout = "" if array.flags.c_contiguous else "non-contiguous "
+        raise ValueError(f"{expected}{layout}{array.dtype} of shape {array.shape}")
+    if not np.isfinite(array).all():
+        row = int(np.argwhere(~np.isfinite(array).all(axis=1))[0, 0])
+        raise ValueError(f"{name}: expected finite numbers, got {array[row].tolist()} in row {row}")
+
+
+def shade(
+    env: _core.Environment,
+    material: _core.Material,
+    sampler: Sampler,
+    normals: FloatArray,
+    tangents: FloatArray,
+    views: FloatArray,
+    filter: Filter = "gauss6",
+    device: _core.Device | None = None,
+) -> FloatArray:
+    """Shade surface points with the kernel that shades pictures.
+
+    Parameters
+    ----------
+    env : Environment
+        Distant light.
+    material : Material
+        One material for all points.
+    sampler : Regular, Importance or Reference
+        How the lobes meet the light.
+    normals : (n, 3) float32
+        Unit vectors, world frame, C-contiguous.
+    tangents : (n, 3) float32
+        Need not be orthogonal to the normals; one along its normal is replaced by some perpendicular one.
+    views : (n, 3) float32
+        Unit vectors from the points toward the eye. A point seen from behind is black.
+    filter : "box", "gauss4" or "gauss6"
+        Reduction filter of the environment's pyramid.
+    device : Device or None
+        None: the best one, opened once.
+
+    Returns
+    -------
+    radiance : (n, 3) float32
+        Linear Rec. 709, toward the eye; (0, 3) where there are no points.
+
+    Raises
+    ------
+    ValueError
+        If an array has another type, shape or layout, or holds a number that is not finite.
+    VulkanError
+        If no device can do it.
+    """
+    require_filter(filter)
+    _require_directions(normals, "normals")
+    _require_directions(tangents, "tangents", len(normals))
+    _require_directions(views, "views", len(normals))
+    if len(normals) == 0:
+        return np.zeros((0, 3), np.float32)
+    return _core.shade(device or default_device(), env, material, sampler, normals, tangents, views, filter)
+
+
+def _require_size(size: tuple[int, int]) -> tuple[int, int]:
+    try:
+        height, width = (int(edge) for edge in size)
+        fits = (height, width) == tuple(size)
+    except (TypeError, ValueError, OverflowError):
+        fits = False
+    if not fits or not (1 <= height <= LARGEST_EDGE_PX and 1 <= width <= LARGEST_EDGE_PX):
+        raise ValueError(f"size: expected (height, width), integers in 1..{LARGEST_EDGE_PX}, got {size!r}")
+    return height, width
+
+
+def _require_spp(spp: int) -> None:
+    if isinstance(spp, bool) or not isinstance(spp, int | np.integer) or not 1 <= spp <= 65536:
+        raise ValueError(f"spp: expected an integer in 1..65536, got {spp!r}")
+
+
+def render(
+    scene: _core.Scene,
+    camera: _core.Camera | None = None,
+    size: tuple[int, int] = (540, 960),
+    sampler: Sampler | None = None,
+    device: _core.Device | None = None,
+    spp: int = 1,
+    filter: Filter = "gauss6",
+    progress: Callable[[float, str], None] | None = None,
+) -> Frame:
+    """Render one frame.
+
+    Parameters
+    ----------
+    scene : Scene
+        Objects, materials and the environment that lights them.
+    camera : Camera or None
+        None: the scene's first camera, or one that sees all of it.
+    size : (height, width)
+        Pixels, 1..16384 each.
+    sampler : Regular, Importance, Reference or None
+        None: ``Regular()``, 14 samples.
+    device : Device or None
+        None: the best one, opened once.
+    spp : int
+        Jittered frames that are accumulated, 1..65536.
+    filter : "box", "gauss4" or "gauss6"
+        Reduction filter of the environment's pyramid.
+    progress : callable or None
+        Called with the share done, 0..1, and the step's name; an exception that it raises stops the frame.
+
+    Returns
+    -------
+    frame : Frame
+        Linear radiance, coverage, depth and normals, and the report that prices them.
+
+    Raises
+    ------
+    ValueError
+        If an argument or the scene is out of its documented range.
+    VulkanError
+        If no device can do it.
+    """
+    require_filter(filter)
+    height, width = _require_size(size)
+    _require_spp(spp)
+    sampler = _core.Regular() if sampler is None else sampler
+    device = device or default_device()
+    data = _core.render(device, scene, camera, height, width, sampler, int(spp), filter, progress)
+    return Frame(data.color, data.alpha, data.depth, data.normal, Report(data.report))
+
+
+def plan(
+    scene: _core.Scene,
+    sampler: Sampler | None = None,
+    spp: int = 1,
+    filter: Filter = "gauss6",
+    is_software: bool = True,
+) -> dict[str, Any]:
+    """Say what rendering a scene would do, without a device.
+
+    Parameters
+    ----------
+    scene : Scene
+        As `render` takes it.
+    sampler : Regular, Importance, Reference or None
+        None: ``Regular()``.
+    spp : int
+        Jittered frames that would be accumulated.
+    filter : "box", "gauss4" or "gauss6"
+        Reduction filter of the pyramid.
+    is_software : bool
+        Whether the device would be a CPU.
+
+    Returns
+    -------
+    plan : dict
+        ``passes`` and ``effects`` with a reason each, ``classes`` of pipelines, ``warnings``.
+    """
+    require_filter(filter)
+    _require_spp(spp)
+    return _core.plan(scene, _core.Regular() if sampler is None else sampler, int(spp), filter, is_software)

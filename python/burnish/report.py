@@ -1,0 +1,180 @@
+"""What a frame cost, what was on and off and why, and what went wrong."""
+
+import json
+import os
+from collections.abc import Mapping
+from copy import deepcopy
+from pathlib import Path
+from typing import Any
+
+Row = tuple[str, str, str]
+
+
+def _table(rows: list[Row]) -> list[str]:
+    """Left-aligned first column, right-aligned numbers; the first row is the heading, the last the total."""
+    widths = [max(len(row[column]) for row in rows) for column in range(3)]
+    lines = [f"  {a:<{widths[0]}}  {b:>{widths[1]}}  {c:>{widths[2]}}" for a, b, c in rows]
+    rule = "  " + "-" * (sum(widths) + 4)
+    return [lines[0], rule, *lines[1:-1], rule, lines[-1]]
+
+
+def _milliseconds(value: float) -> str:
+    return f"{value:.2f}" if value < 100 else f"{value:.0f}"
+
+
+class Report:
+    """The price list of one frame.
+
+    ``print(frame.report)`` shows it; `to_json` and `save` keep it; the attributes give its parts.
+
+    Parameters
+    ----------
+    data : mapping
+        As the renderer fills it: version, device, size, spp, filter, sampler, passes, compile_ms, wall_ms,
+        effects, classes, non_finite, warnings, ignored_extensions.
+    """
+
+    def __init__(self, data: Mapping[str, Any]) -> None:
+        self._data: dict[str, Any] = deepcopy(dict(data))
+
+    @property
+    def passes(self) -> list[dict[str, Any]]:
+        """``name`` and ``milliseconds`` of every pass that ran, by the GPU's own clock, in order."""
+        return list(self._data.get("passes", []))
+
+    @property
+    def effects(self) -> list[dict[str, Any]]:
+        """``name``, ``on`` and ``reason`` of every effect the renderer knows."""
+        return list(self._data.get("effects", []))
+
+    @property
+    def classes(self) -> list[dict[str, Any]]:
+        """Specialised pipelines of the shade pass: effects, table, samples, materials, and why."""
+        return list(self._data.get("classes", []))
+
+    @property
+    def sampler(self) -> dict[str, Any]:
+        """``name``, ``requested`` and ``used`` of the sampler."""
+        return dict(self._data.get("sampler", {}))
+
+    @property
+    def samples_used(self) -> str:
+        """Samples per lobe and pixel that were really taken, as text such as "19 (s1, 3 circles)"."""
+        return str(self.sampler.get("used", ""))
+
+    @property
+    def device(self) -> dict[str, Any]:
+        """``name``, ``driver`` and ``is_software``."""
+        return dict(self._data.get("device", {}))
+
+    @property
+    def size(self) -> tuple[int, int]:
+        """Height and width in pixels."""
+        height, width = self._data.get("size", (0, 0))
+        return int(height), int(width)
+
+    @property
+    def spp(self) -> int:
+        """Jittered frames accumulated."""
+        return int(self._data.get("spp", 1))
+
+    @property
+    def filter(self) -> str:
+        """Reduction filter of the pyramid."""
+        return str(self._data.get("filter", ""))
+
+    @property
+    def non_finite(self) -> int:
+        """Values that were NaN or infinite on their way into the picture, and were stopped."""
+        return int(self._data.get("non_finite", 0))
+
+    @property
+    def warnings(self) -> list[str]:
+        """One sentence each; empty when nothing is to be said."""
+        return list(self._data.get("warnings", []))
+
+    @property
+    def ignored_extensions(self) -> list[str]:
+        """Optional glTF extensions of the scene's file that have no effect here."""
+        return list(self._data.get("ignored_extensions", []))
+
+    @property
+    def total_ms(self) -> float:
+        """Sum over the passes, GPU time."""
+        return float(sum(entry["milliseconds"] for entry in self.passes))
+
+    @property
+    def wall_ms(self) -> float:
+        """From the call to the arrays, on the wall clock; includes compilation, uploads and read-back."""
+        return float(self._data.get("wall_ms", 0.0))
+
+    @property
+    def compile_ms(self) -> float:
+        """Making pipelines; 0 once they are cached. Not part of any pass."""
+        return float(self._data.get("compile_ms", 0.0))
+
+    def to_json(self, indent: int | None = 2) -> str:
+        """Give everything as JSON text.
+
+        Parameters
+        ----------
+        indent : int or None
+            Spaces per level; None for one line.
+        """
+        return json.dumps(self._data, indent=indent)
+
+    def save(self, path: str | os.PathLike[str]) -> None:
+        """Write the report as a JSON file.
+
+        Parameters
+        ----------
+        path : path
+            Its folder must exist.
+        """
+        Path(path).write_text(self.to_json() + "\n", encoding="utf-8")
+
+    def __repr__(self) -> str:
+        height, width = self.size
+        return f"Report({width}x{height}, {len(self.passes)} passes, {self.total_ms:.1f} ms)"
+
+    def __str__(self) -> str:
+        blocks = [self._heading(), self._price_list(), self._effect_list(), self._notes()]
+        return "\n\n".join("\n".join(block) for block in blocks if block)
+
+    def _heading(self) -> list[str]:
+        height, width = self.size
+        device, sampler = self.device, self.sampler
+        asked = sampler.get("requested", sampler.get("name", "no sampler"))
+        picture = f"{width} x {height}, {self.spp} spp, {asked}"
+        if self.samples_used:
+            picture += f", samples used: {self.samples_used}"
+        where = f"on {device.get('name', 'an unknown device')}, driver {device.get('driver', 'unknown')}"
+        return [picture, where]
+
+    def _price_list(self) -> list[str]:
+        total = self.total_ms
+        rows: list[Row] = [("pass", "ms", "share")]
+        for entry in self.passes:
+            share = entry["milliseconds"] / total if total > 0 else 0.0
+            rows.append((entry["name"], _milliseconds(entry["milliseconds"]), f"{100 * share:.1f} %"))
+        rows.append(("total", _milliseconds(total), "100.0 %" if total > 0 else "-"))
+        wall, compiling = _milliseconds(self.wall_ms), _milliseconds(self.compile_ms)
+        outside = f"  wall clock {wall} ms, of which compiling {compiling} ms"
+        return [*_table(rows), outside]
+
+    def _effect_list(self) -> list[str]:
+        on = [entry["name"] for entry in self.effects if entry["on"]]
+        off = [entry for entry in self.effects if not entry["on"]]
+        lines = [f"on: {', '.join(on) if on else 'nothing'}"]
+        if off:
+            width = max(len(entry["name"]) for entry in off)
+            lines += ["off:", *(f"  {entry['name']:<{width}}  {entry['reason']}" for entry in off)]
+        return lines
+
+    def _notes(self) -> list[str]:
+        lines = [f"warning: {warning}" for warning in self.warnings]
+        if self.non_finite:
+            lines.append(f"warning: {self.non_finite} values were NaN or infinite and were stopped")
+        if self.ignored_extensions:
+            lines.append(f"ignored glTF extensions: {', '.join(self.ignored_extensions)}")
+        return lines
