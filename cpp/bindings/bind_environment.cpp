@@ -34,8 +34,9 @@ glm::mat3 matrix_from(const py::object& rotation) {
         return glm::mat3(c, 0, -s, 0, 1, 0, s, 0, c); // columns
     }
     if (!values || values.ndim() != 2 || values.shape(0) != 3 || values.shape(1) != 3) {
-        throw std::invalid_argument(message("rotation: expected None, degrees about y or a (3, 3) array, got ",
-                                            std::string(py::repr(rotation))));
+        throw std::invalid_argument(
+            message("rotation: expected None, degrees about y or a (3, 3) array, got ",
+                    std::string(py::repr(rotation))));
     }
     glm::mat3 matrix;
     for (int row = 0; row < 3; ++row) {
@@ -46,7 +47,8 @@ glm::mat3 matrix_from(const py::object& rotation) {
     const glm::mat3 residue = glm::transpose(matrix) * matrix - glm::mat3(1.0f);
     const float error = std::max({glm::length(residue[0]), glm::length(residue[1]), glm::length(residue[2])});
     if (!(error < 1e-4f)) { // also refuses NaN
-        throw std::invalid_argument(message("rotation: expected orthonormal columns, got columns off by ", error));
+        throw std::invalid_argument(
+            message("rotation: expected orthonormal columns, got columns off by ", error));
     }
     return matrix;
 }
@@ -64,27 +66,32 @@ std::shared_ptr<Environment> finish(Environment environment, double exposure, co
     return std::make_shared<Environment>(std::move(environment));
 }
 
-std::shared_ptr<Environment> environment_from_faces(const py::array& faces, double exposure, const py::object& rotation) {
+std::shared_ptr<Environment> environment_from_faces(const py::array& faces, double exposure,
+                                                    const py::object& rotation) {
     const auto checked = require_array<float>(faces, "faces", {6, any, any, 3});
     if (checked.shape(1) != checked.shape(2)) {
-        throw std::invalid_argument(message("faces: expected square faces, got ", checked.shape(1), " x ", checked.shape(2)));
+        throw std::invalid_argument(
+            message("faces: expected square faces, got ", checked.shape(1), " x ", checked.shape(2)));
     }
     const py::ssize_t size = checked.shape(1);
     require_face_size(static_cast<uint32_t>(std::min<py::ssize_t>(size, UINT32_MAX)));
     std::vector<float> radiance(checked.data(), checked.data() + checked.size());
-    return finish(Environment::from_faces(static_cast<uint32_t>(size), std::move(radiance)), exposure, rotation);
+    return finish(Environment::from_faces(static_cast<uint32_t>(size), std::move(radiance)), exposure,
+                  rotation);
 }
 
-std::shared_ptr<Environment> environment_from_lat_long(const py::array& img, int64_t face_size, double exposure,
-                                                       const py::object& rotation) {
+std::shared_ptr<Environment> environment_from_lat_long(const py::array& img, int64_t face_size,
+                                                       double exposure, const py::object& rotation,
+                                                       bool border_samples) {
     const auto checked = require_array<float>(img, "img", {any, any, 3});
     require_face_size(static_cast<uint32_t>(std::clamp<int64_t>(face_size, 0, UINT32_MAX)));
     const std::vector<float> radiance(checked.data(), checked.data() + checked.size());
     const auto height = static_cast<uint32_t>(checked.shape(0));
     const auto width = static_cast<uint32_t>(checked.shape(1));
+    const LatLongGrid grid = border_samples ? LatLongGrid::samples : LatLongGrid::bands;
     Environment environment = [&] {
         const py::gil_scoped_release release;
-        return Environment::from_lat_long(height, width, radiance, static_cast<uint32_t>(face_size));
+        return Environment::from_lat_long(height, width, radiance, static_cast<uint32_t>(face_size), grid);
     }();
     return finish(std::move(environment), exposure, rotation);
 }
@@ -113,7 +120,8 @@ py::array_t<float> read_hdr_array(const std::string& path) {
 }
 
 void bind_texel_report(py::module_& m) {
-    py::class_<TexelReport>(m, "TexelReport", R"(What was wrong with the texels of an environment, and was put right.
+    py::class_<TexelReport>(m, "TexelReport",
+                            R"(What was wrong with the texels of an environment, and was put right.
 
 A texel counts once, under its worst fault in the order NaN, infinite, above half range, negative. ``str()`` gives one
 sentence, empty when nothing was wrong.)")
@@ -121,14 +129,15 @@ sentence, empty when nothing was wrong.)")
         .def_readonly("not_a_number", &TexelReport::not_a_number, "Texels with a NaN channel, set to 0.")
         .def_readonly("infinite", &TexelReport::infinite,
                       "Texels with an infinite channel, set to 65504, or to 0 if negative.")
-        .def_readonly("above_half", &TexelReport::above_half, "Texels with a channel above 65504, clamped to it.")
+        .def_readonly("above_half", &TexelReport::above_half,
+                      "Texels with a channel above 65504, clamped to it.")
         .def_readonly("largest", &TexelReport::largest, "Largest finite value given, before any repair.")
         .def_property_readonly("count", &TexelReport::count, "Texels repaired, of all kinds.")
         .def("__str__", &TexelReport::sentence)
         .def("__repr__", [](const TexelReport& report) {
             return message("TexelReport(negative=", report.negative, ", not_a_number=", report.not_a_number,
-                           ", infinite=", report.infinite, ", above_half=", report.above_half, ", largest=", report.largest,
-                           ")");
+                           ", infinite=", report.infinite, ", above_half=", report.above_half,
+                           ", largest=", report.largest, ")");
         });
 }
 
@@ -137,7 +146,8 @@ sentence, empty when nothing was wrong.)")
 void bind_environment(py::module_& m) {
     bind_texel_report(m);
 
-    py::class_<Environment, std::shared_ptr<Environment>>(m, "Environment", R"(Distant light: six square faces of linear radiance.
+    py::class_<Environment, std::shared_ptr<Environment>>(
+        m, "Environment", R"(Distant light: six square faces of linear radiance.
 
 Faces are in Vulkan's order, +X -X +Y -Y +Z -Z, right-handed with y up. Texel (row, column) of a face of N x N texels has
 u = (2 column + 1)/N - 1 and v = (2 row + 1)/N - 1 and looks along (1, -v, -u), (-1, -v, u), (u, 1, v), (u, -1, -v),
@@ -165,6 +175,7 @@ ValueError
     If `faces` has another type, shape or layout: nothing is cast silently.)")
         .def_static("from_lat_long", &environment_from_lat_long, py::arg("img"), py::arg("face_size") = 512,
                     py::arg("exposure") = 0.0, py::arg("rotation") = py::none(),
+                    py::arg("border_samples") = false,
                     R"(An environment from a latitude-longitude map, resampled by exact area.
 
 Parameters
@@ -178,6 +189,9 @@ exposure : float
     Stops; the radiance is multiplied by 2**exposure when it is looked up.
 rotation : None, float or (3, 3) array
     Turns the map in the world: degrees about +y, or the matrix world_from_environment.
+border_samples : bool
+    False: texels are bands of equal angle that end at the poles and at +-180 degrees. True: the centres of the outer
+    texels lie there, as in OpenEXR's environment maps.
 
 Returns
 -------
@@ -188,22 +202,30 @@ Raises
 ------
 ValueError
     If `img` has another type, shape or layout: nothing is cast silently.)")
-        .def_property_readonly("faces", &faces_of, "(6, n, n, 3) float32: a new array of the radiance, repaired.")
+        .def_property_readonly("faces", &faces_of,
+                               "(6, n, n, 3) float32: a new array of the radiance, repaired.")
         .def_property_readonly("face_size", &Environment::face_size, "Edge of a face in texels.")
         .def_property(
             "rotation", &rotation_of,
-            [](Environment& environment, const py::object& rotation) { environment.rotation = matrix_from(rotation); },
-            "(3, 3) float32: world_from_environment. May be set to degrees about +y, to an array, or to None.")
+            [](Environment& environment, const py::object& rotation) {
+                environment.rotation = matrix_from(rotation);
+            },
+            "(3, 3) float32: world_from_environment. May be set to degrees about +y, to an array, or to "
+            "None.")
         .def_property(
             "exposure", [](const Environment& environment) { return environment.exposure; },
-            [](Environment& environment, double exposure) { environment.exposure = checked_exposure(exposure); },
+            [](Environment& environment, double exposure) {
+                environment.exposure = checked_exposure(exposure);
+            },
             "Stops: the radiance is multiplied by 2**exposure when it is looked up.")
-        .def_readwrite("name", &Environment::name, "Shown in reports; the file's name for environments from files.")
+        .def_readwrite("name", &Environment::name,
+                       "Shown in reports; the file's name for environments from files.")
         .def_readwrite("notes", &Environment::notes, "List of str: what was done to the map on its way here.")
         .def_property_readonly("texel_report", &Environment::texel_report, "TexelReport: what was repaired.")
         .def("__repr__", [](const Environment& environment) {
             return message("Environment(name='", environment.name, "', face_size=", environment.face_size(),
-                           ", exposure=", environment.exposure, ", repaired_texels=", environment.texel_report().count(), ")");
+                           ", exposure=", environment.exposure,
+                           ", repaired_texels=", environment.texel_report().count(), ")");
         });
 
     m.def("read_hdr", &read_hdr_array, py::arg("path"), R"(Read a Radiance .hdr picture.

@@ -1,5 +1,5 @@
-// Arrays between numpy and C++: checked on the way in, never cast or copied behind the caller's back, new and owned on the
-// way out.
+// Arrays between numpy and C++: checked on the way in, never cast or copied behind the caller's back, new and
+// owned on the way out.
 #pragma once
 
 #include <initializer_list>
@@ -29,7 +29,8 @@ inline std::string shape_text(const std::vector<py::ssize_t>& shape) {
     return text + (shape.size() == 1 ? ",)" : ")");
 }
 
-/// The array itself, seen as T. Throws std::invalid_argument unless it is C-contiguous, of type T and of that shape.
+/// The array itself, seen as T. Throws std::invalid_argument unless it is C-contiguous, of type T and of that
+/// shape.
 template <typename T>
 py::array_t<T, py::array::c_style> require_array(const py::array& array, const char* name,
                                                  std::initializer_list<py::ssize_t> shape) {
@@ -41,10 +42,10 @@ py::array_t<T, py::array::c_style> require_array(const py::array& array, const c
     }
     const bool is_contiguous = (array.flags() & py::array::c_style) != 0;
     if (!fits || !is_contiguous || !array.dtype().is(py::dtype::of<T>())) {
-        throw std::invalid_argument(message(name, ": expected C-contiguous ",
-                                            std::string(py::str(py::dtype::of<T>())), " of shape ", shape_text(expected),
-                                            ", got ", is_contiguous ? "" : "non-contiguous ",
-                                            std::string(py::str(array.dtype())), " of shape ", shape_text(actual)));
+        throw std::invalid_argument(
+            message(name, ": expected C-contiguous ", std::string(py::str(py::dtype::of<T>())), " of shape ",
+                    shape_text(expected), ", got ", is_contiguous ? "" : "non-contiguous ",
+                    std::string(py::str(array.dtype())), " of shape ", shape_text(actual)));
     }
     return py::reinterpret_borrow<py::array_t<T, py::array::c_style>>(array);
 }
@@ -54,7 +55,8 @@ template <typename T>
 py::array_t<T> make_array(std::vector<T> values, const std::vector<py::ssize_t>& shape) {
     auto owner = std::make_unique<std::vector<T>>(std::move(values));
     const T* data = owner->data();
-    const py::capsule free_owner(owner.release(), [](void* pointer) { delete static_cast<std::vector<T>*>(pointer); });
+    const py::capsule free_owner(owner.release(),
+                                 [](void* pointer) { delete static_cast<std::vector<T>*>(pointer); });
     return py::array_t<T>(shape, data, free_owner);
 }
 

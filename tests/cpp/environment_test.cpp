@@ -25,7 +25,8 @@ double texel_solid_angle(uint32_t face_size, uint32_t row, uint32_t column) {
         const double v = 2.0 * i / face_size - 1.0;
         return std::atan2(u * v, std::sqrt(1.0 + u * u + v * v));
     };
-    return corner(row + 1, column + 1) - corner(row, column + 1) - corner(row + 1, column) + corner(row, column);
+    return corner(row + 1, column + 1) - corner(row, column + 1) - corner(row + 1, column) +
+           corner(row, column);
 }
 
 // Integral of the first channel over the sphere.
@@ -35,7 +36,8 @@ double cube_energy(const Environment& environment) {
     for (uint32_t face = 0; face < 6; ++face) {
         for (uint32_t row = 0; row < n; ++row) {
             for (uint32_t column = 0; column < n; ++column) {
-                energy += texel_solid_angle(n, row, column) * environment.radiance()[3 * ((face * n + row) * n + column)];
+                energy += texel_solid_angle(n, row, column) *
+                          environment.radiance()[3 * ((face * n + row) * n + column)];
             }
         }
     }
@@ -45,7 +47,8 @@ double cube_energy(const Environment& environment) {
 double lat_long_energy(uint32_t height, uint32_t width, const std::vector<float>& radiance) {
     double energy = 0.0;
     for (uint32_t row = 0; row < height; ++row) {
-        const double band = std::sin(PI * (0.5 - double(row) / height)) - std::sin(PI * (0.5 - double(row + 1) / height));
+        const double band =
+            std::sin(PI * (0.5 - double(row) / height)) - std::sin(PI * (0.5 - double(row + 1) / height));
         for (uint32_t column = 0; column < width; ++column) {
             energy += band * 2.0 * PI / width * radiance[3 * (row * width + column)];
         }
@@ -56,10 +59,12 @@ double lat_long_energy(uint32_t height, uint32_t width, const std::vector<float>
 glm::dvec3 lat_long_direction(uint32_t height, uint32_t width, double row, double column) {
     const double latitude = PI * (0.5 - (row + 0.5) / height);
     const double longitude = PI * (1.0 - 2.0 * (column + 0.5) / width);
-    return {std::cos(latitude) * std::sin(longitude), std::sin(latitude), std::cos(latitude) * std::cos(longitude)};
+    return {std::cos(latitude) * std::sin(longitude), std::sin(latitude),
+            std::cos(latitude) * std::cos(longitude)};
 }
 
-std::vector<float> lat_long_sun(uint32_t height, uint32_t width, const glm::dvec3& center, double diameter_degrees) {
+std::vector<float> lat_long_sun(uint32_t height, uint32_t width, const glm::dvec3& center,
+                                double diameter_degrees) {
     std::vector<float> radiance(size_t{3} * height * width, 0.01f);
     const double cos_radius = std::cos(0.5 * diameter_degrees * PI / 180.0);
     for (uint32_t row = 0; row < height; ++row) {
@@ -125,7 +130,8 @@ std::string grey(uint8_t mantissa) {
 
 TEST(LatLong, ConstantMapStaysConstant) {
     for (const uint32_t face_size : {1u, 2u, 4u, 32u, 128u}) {
-        for (const auto& [height, width] : std::array<std::pair<uint32_t, uint32_t>, 4>{{{1, 1}, {3, 5}, {64, 128}, {77, 150}}}) {
+        for (const auto& [height, width] :
+             std::array<std::pair<uint32_t, uint32_t>, 4>{{{1, 1}, {3, 5}, {64, 128}, {77, 150}}}) {
             const std::vector<float> radiance(size_t{3} * height * width, 2.5f);
             const Environment environment = Environment::from_lat_long(height, width, radiance, face_size);
             for (const float value : environment.radiance()) {
@@ -162,7 +168,8 @@ TEST(LatLong, AxesLandOnTheirFaces) {
     // One lit texel column and row around each axis; longitude falls to the right, 0 in the middle.
     const uint32_t height = 64;
     const uint32_t width = 128;
-    const std::array<std::pair<uint32_t, uint32_t>, 6> texels = {{{32, 32}, {32, 96}, {0, 0}, {63, 0}, {32, 64}, {32, 0}}};
+    const std::array<std::pair<uint32_t, uint32_t>, 6> texels = {
+        {{32, 32}, {32, 96}, {0, 0}, {63, 0}, {32, 64}, {32, 0}}};
     for (uint32_t face = 0; face < 6; ++face) {
         std::vector<float> radiance(size_t{3} * height * width, 0.0f);
         for (uint32_t column = 0; column < width; ++column) {
@@ -210,9 +217,48 @@ TEST(LatLong, TexelMeansAgreeWithBruteForce) {
                 sum += weight * radiance[3 * (source_row * width + source_column) + 1];
                 weight_sum += weight;
             }
-            EXPECT_NEAR(environment.radiance()[3 * (face * n * n + texel) + 1], sum / weight_sum, 0.02) // points err by a step, 1/200, at edges
+            EXPECT_NEAR(environment.radiance()[3 * (face * n * n + texel) + 1], sum / weight_sum,
+                        0.02) // points err by a step, 1/200, at edges
                 << "face " << face << " texel " << texel;
         }
+    }
+}
+
+TEST(LatLong, BothGridsPutTexelsWhereTheySay) {
+    const uint32_t height = 33;
+    const uint32_t width = 65;
+    for (const LatLongGrid grid : {LatLongGrid::bands, LatLongGrid::samples}) {
+        const bool is_bands = grid == LatLongGrid::bands;
+        for (const auto& [row, column] :
+             std::array<std::pair<uint32_t, uint32_t>, 5>{{{16, 32}, {5, 7}, {0, 3}, {28, 50}, {20, 0}}}) {
+            std::vector<float> radiance(size_t{3} * height * width, 0.0f);
+            radiance[3 * (row * width + column)] = 1000.0f;
+            const Environment environment = Environment::from_lat_long(height, width, radiance, 128, grid);
+            glm::dvec3 centroid(0.0);
+            for (uint32_t texel = 0; texel < 6 * 128 * 128; ++texel) {
+                const uint32_t i = texel / 128 % 128;
+                const uint32_t j = texel % 128;
+                const glm::dvec3 direction = cube_direction(
+                    texel / (128 * 128), (float(j) + 0.5f) / 64.0f - 1.0f, (float(i) + 0.5f) / 64.0f - 1.0f);
+                centroid +=
+                    direction * texel_solid_angle(128, i, j) * double(environment.radiance()[3 * texel]);
+            }
+            const double latitude =
+                PI * (0.5 - (is_bands ? (row + 0.5) / height : double(row) / (height - 1)));
+            const double longitude =
+                PI * (1.0 - 2.0 * (is_bands ? (column + 0.5) / width : double(column) / (width - 1)));
+            const glm::dvec3 expected(std::cos(latitude) * std::sin(longitude), std::sin(latitude),
+                                      std::cos(latitude) * std::cos(longitude));
+            // A texel is 0.1 wide, the grids are half of that apart; bands at the pole have their centroid
+            // off their centre.
+            EXPECT_GT(glm::dot(glm::normalize(centroid), expected), std::cos(row == 0 ? 0.04 : 0.005))
+                << (is_bands ? "bands " : "samples ") << row << ", " << column;
+        }
+    }
+    const std::vector<float> constant(size_t{3} * height * width, 2.5f);
+    const Environment flat = Environment::from_lat_long(height, width, constant, 16, LatLongGrid::samples);
+    for (const float value : flat.radiance()) {
+        ASSERT_NEAR(value, 2.5f, 1e-6f);
     }
 }
 
@@ -239,7 +285,8 @@ TEST(Environment, FaultyTexelsAreCountedAndRepaired) {
     EXPECT_EQ(environment.radiance()[6], 0.0f);
     EXPECT_EQ(environment.radiance()[9], HALF_MAX);
     EXPECT_EQ(environment.radiance()[12], 0.0f);
-    EXPECT_NE(report.sentence().find("1 above half range (clamped to 65504)"), std::string::npos) << report.sentence();
+    EXPECT_NE(report.sentence().find("1 above half range (clamped to 65504)"), std::string::npos)
+        << report.sentence();
     EXPECT_EQ(TexelReport{}.sentence(), "");
 }
 
@@ -248,7 +295,8 @@ TEST(Environment, FaceSizeErrorNamesTheNearest) {
         Environment::from_faces(100, std::vector<float>(size_t{6} * 100 * 100 * 3));
         FAIL();
     } catch (const std::invalid_argument& error) {
-        EXPECT_STREQ(error.what(), "face_size: expected a power of two in 1..2048, got 100 (nearest: 64 or 128)");
+        EXPECT_STREQ(error.what(),
+                     "face_size: expected a power of two in 1..2048, got 100 (nearest: 64 or 128)");
     }
     EXPECT_THROW(require_face_size(0), std::invalid_argument);
     EXPECT_THROW(require_face_size(4096), std::invalid_argument);
@@ -258,8 +306,10 @@ TEST(Environment, FaceSizeErrorNamesTheNearest) {
 
 TEST(Environment, HalvesAreTheNearestEven) {
     std::vector<float> radiance(size_t{6} * 64 * 64 * 3);
-    for (size_t i = 0; i < radiance.size(); ++i) { // every exponent of a half and its subnormals, many mantissas
-        radiance[i] = std::ldexp(1.0f + static_cast<float>((i * 7919) % 8192) / 8192.0f, static_cast<int>(i % 42) - 27);
+    for (size_t i = 0; i < radiance.size();
+         ++i) { // every exponent of a half and its subnormals, many mantissas
+        radiance[i] =
+            std::ldexp(1.0f + static_cast<float>((i * 7919) % 8192) / 8192.0f, static_cast<int>(i % 42) - 27);
     }
     radiance[0] = 0.0f;
     radiance[1] = HALF_MAX;
@@ -272,7 +322,8 @@ TEST(Environment, HalvesAreTheNearestEven) {
         int exponent = 0;
         std::frexp(value, &exponent);
         const double step = std::ldexp(1.0, std::max(exponent - 11, -24));
-        const double expected = std::nearbyint(double(value) / step) * step; // to even, in the default rounding mode
+        const double expected =
+            std::nearbyint(double(value) / step) * step; // to even, in the default rounding mode
         const int half_exponent = bits >> 10;
         const double decoded = half_exponent == 0 ? std::ldexp(bits & 1023, -24)
                                                   : std::ldexp(1024 + (bits & 1023), half_exponent - 25);
@@ -296,8 +347,8 @@ TEST(Cube, DirectionAndFaceAreInverse) {
 }
 
 TEST(ReadHdr, FlatAndOldRleAndNewRleGiveTheSame) {
-    const std::string flat = HEADER + "-Y 1 +X 10\n" + grey(7) + grey(7) + grey(7) + grey(7) + grey(7) + grey(7) + grey(7) +
-                             grey(7) + grey(7) + grey(9);
+    const std::string flat = HEADER + "-Y 1 +X 10\n" + grey(7) + grey(7) + grey(7) + grey(7) + grey(7) +
+                             grey(7) + grey(7) + grey(7) + grey(7) + grey(9);
     const std::string repeat = {1, 1, 1, 8};
     const std::string old_rle = HEADER + "-Y 1 +X 10\n" + grey(7) + repeat + grey(9);
     std::string new_rle = HEADER + "-Y 1 +X 10\n" + std::string("\x02\x02\x00\x0a", 4);
@@ -316,14 +367,15 @@ TEST(ReadHdr, FlatAndOldRleAndNewRleGiveTheSame) {
 
 TEST(ReadHdr, EveryOrientationComesOutTopDown) {
     // The picture, top-down: 1 2 3 / 4 5 6.
-    const std::array<std::pair<std::string, std::array<uint8_t, 6>>, 8> cases = {{{"-Y 2 +X 3", {1, 2, 3, 4, 5, 6}},
-                                                                                 {"-Y 2 -X 3", {3, 2, 1, 6, 5, 4}},
-                                                                                 {"+Y 2 +X 3", {4, 5, 6, 1, 2, 3}},
-                                                                                 {"+Y 2 -X 3", {6, 5, 4, 3, 2, 1}},
-                                                                                 {"+X 3 -Y 2", {1, 4, 2, 5, 3, 6}},
-                                                                                 {"-X 3 -Y 2", {3, 6, 2, 5, 1, 4}},
-                                                                                 {"+X 3 +Y 2", {4, 1, 5, 2, 6, 3}},
-                                                                                 {"-X 3 +Y 2", {6, 3, 5, 2, 4, 1}}}};
+    const std::array<std::pair<std::string, std::array<uint8_t, 6>>, 8> cases = {
+        {{"-Y 2 +X 3", {1, 2, 3, 4, 5, 6}},
+         {"-Y 2 -X 3", {3, 2, 1, 6, 5, 4}},
+         {"+Y 2 +X 3", {4, 5, 6, 1, 2, 3}},
+         {"+Y 2 -X 3", {6, 5, 4, 3, 2, 1}},
+         {"+X 3 -Y 2", {1, 4, 2, 5, 3, 6}},
+         {"-X 3 -Y 2", {3, 6, 2, 5, 1, 4}},
+         {"+X 3 +Y 2", {4, 1, 5, 2, 6, 3}},
+         {"-X 3 +Y 2", {6, 3, 5, 2, 4, 1}}}};
     for (const auto& [resolution, stored] : cases) {
         std::string bytes = HEADER + resolution + "\n";
         for (const uint8_t value : stored) {
@@ -333,7 +385,8 @@ TEST(ReadHdr, EveryOrientationComesOutTopDown) {
         ASSERT_EQ(image.width, 3u) << resolution;
         ASSERT_EQ(image.height, 2u) << resolution;
         for (size_t i = 0; i < 6; ++i) {
-            EXPECT_FLOAT_EQ(image.radiance[3 * i], static_cast<float>(i + 1) / 16.0f) << resolution << " texel " << i;
+            EXPECT_FLOAT_EQ(image.radiance[3 * i], static_cast<float>(i + 1) / 16.0f)
+                << resolution << " texel " << i;
         }
     }
 }
@@ -349,7 +402,8 @@ TEST(ReadHdr, HeadersOfOtherWritersAreRead) {
     EXPECT_FLOAT_EQ(image.radiance[1], 0.5f / 16.0f);
     EXPECT_FLOAT_EQ(image.radiance[2], 0.5f / 32.0f);
     const std::string xyz = "#?RADIANCE\nFORMAT=32-bit_rle_xyze\n\n-Y 1 +X 1\n";
-    const std::string white = {static_cast<char>(122), static_cast<char>(128), static_cast<char>(139), static_cast<char>(128)};
+    const std::string white = {static_cast<char>(122), static_cast<char>(128), static_cast<char>(139),
+                               static_cast<char>(128)};
     for (const float value : read_bytes(xyz + white).radiance) { // D65 white of luminance 0.5
         EXPECT_NEAR(value, 0.5f, 0.01f);
     }
@@ -362,8 +416,10 @@ TEST(ReadHdr, BrokenFilesAreRefusedInWords) {
         {"#?RADIANCE\nFORMAT=float\n\n", "FORMAT: expected 32-bit_rle_rgbe or 32-bit_rle_xyze, got 'float'"},
         {"#?RADIANCE\nEXPOSURE=0\n\n", "EXPOSURE: expected a positive number in 1e-30..1e30, got '0'"},
         {HEADER + "-Y4 +X8888888A'8\n", "sizes in 1..1000000, got '-Y4 +X8888888A'8'"},
-        {HEADER + "-Y 1000000 +X 1000000\n", "expected at most 67108864 pixels, got 1000000 scanlines of 1000000"},
-        {HEADER + "-Y 1000 +X 1000\n" + grey(5), "expected at least 8000 bytes for 1000 scanlines of 1000 pixels, got 4"},
+        {HEADER + "-Y 1000000 +X 1000000\n",
+         "expected at most 67108864 pixels, got 1000000 scanlines of 1000000"},
+        {HEADER + "-Y 1000 +X 1000\n" + grey(5),
+         "expected at least 8000 bytes for 1000 scanlines of 1000 pixels, got 4"},
         {HEADER + "-Y 2 +X 3\n" + grey(5) + grey(5) + grey(5) + grey(5) + grey(5),
          "scanline 1 of 2: expected 3 pixels, got the end of the file after 2"},
         {HEADER + "-Y 1 +X 10\n" + std::string("\x02\x02\x00\x0a\xff\x07\x00\x00", 8),

@@ -14,8 +14,9 @@ namespace burnish {
 
 namespace {
 
-// Float to half for values in [0, HALF_MAX], to nearest even. Below 2^-14 a half is subnormal, a multiple of 2^-24: adding
-// 0.5 makes the float unit round at just that step. Above, the carry of the added bits does the rounding.
+// Float to half for values in [0, HALF_MAX], to nearest even. Below 2^-14 a half is subnormal, a multiple of
+// 2^-24: adding 0.5 makes the float unit round at just that step. Above, the carry of the added bits does the
+// rounding.
 uint16_t half_bits(float value) {
     constexpr uint32_t SMALLEST_NORMAL = 0x38800000u; // 2^-14
     const uint32_t bits = std::bit_cast<uint32_t>(value);
@@ -55,8 +56,8 @@ void require_face_size(uint32_t face_size) {
     if (above != below) {
         nearest += message(" or ", above);
     }
-    throw std::invalid_argument(message("face_size: expected a power of two in 1..", MAX_FACE_SIZE, ", got ", face_size,
-                                        " (nearest: ", nearest, ")"));
+    throw std::invalid_argument(message("face_size: expected a power of two in 1..", MAX_FACE_SIZE, ", got ",
+                                        face_size, " (nearest: ", nearest, ")"));
 }
 
 TexelReport clean_texels(std::vector<float>& radiance, float upper_limit) {
@@ -101,8 +102,8 @@ Environment Environment::from_faces(uint32_t face_size, std::vector<float> radia
     require_face_size(face_size);
     const size_t expected = size_t{6} * face_size * face_size * 3;
     if (radiance.size() != expected) {
-        throw std::invalid_argument(message("radiance: expected ", expected, " floats for six faces of ", face_size, " x ",
-                                            face_size, " x 3, got ", radiance.size()));
+        throw std::invalid_argument(message("radiance: expected ", expected, " floats for six faces of ",
+                                            face_size, " x ", face_size, " x 3, got ", radiance.size()));
     }
     Environment environment;
     environment.face_size_ = face_size;
@@ -112,20 +113,32 @@ Environment Environment::from_faces(uint32_t face_size, std::vector<float> radia
 }
 
 Environment Environment::from_lat_long(uint32_t height, uint32_t width, const std::vector<float>& radiance,
-                                       uint32_t face_size) {
+                                       uint32_t face_size, LatLongGrid grid) {
     require_face_size(face_size);
-    if (height == 0 || width == 0) {
-        throw std::invalid_argument(message("radiance: expected at least one texel, got ", height, " x ", width));
+    const uint32_t least = grid == LatLongGrid::samples ? 2 : 1;
+    if (height < least || width < least) {
+        throw std::invalid_argument(message("radiance: expected at least ", least, " x ", least,
+                                            " texels, got ", height, " x ", width));
     }
     const size_t expected = size_t{height} * width * 3;
     if (radiance.size() != expected) {
-        throw std::invalid_argument(message("radiance: expected ", expected, " floats for ", height, " x ", width,
-                                            " x 3, got ", radiance.size()));
+        throw std::invalid_argument(message("radiance: expected ", expected, " floats for ", height, " x ",
+                                            width, " x 3, got ", radiance.size()));
     }
     // Values above half range stay until they are averaged: the mean over a cube texel may well fit.
     std::vector<float> cleaned = radiance;
     const TexelReport source = clean_texels(cleaned, std::numeric_limits<float>::max());
-    Environment environment = from_faces(face_size, cube_from_lat_long(height, width, cleaned, face_size));
+    if (grid == LatLongGrid::samples) { // one direction, two values: both count half
+        for (uint32_t row = 0; row < height; ++row) {
+            float* const first = cleaned.data() + size_t{3} * width * row;
+            float* const last = first + size_t{3} * (width - 1);
+            for (int channel = 0; channel < 3; ++channel) {
+                first[channel] = 0.5f * first[channel] + 0.5f * last[channel];
+            }
+        }
+    }
+    Environment environment =
+        from_faces(face_size, cube_from_lat_long(height, width, cleaned, face_size, grid));
     environment.texel_report_.not_a_number += source.not_a_number;
     environment.texel_report_.infinite += source.infinite;
     environment.texel_report_.negative += source.negative;
@@ -148,13 +161,20 @@ std::vector<uint16_t> Environment::half_rgba() const {
 
 glm::vec3 cube_direction(uint32_t face, float u, float v) {
     switch (face) {
-    case 0: return glm::normalize(glm::vec3(1.0f, -v, -u));
-    case 1: return glm::normalize(glm::vec3(-1.0f, -v, u));
-    case 2: return glm::normalize(glm::vec3(u, 1.0f, v));
-    case 3: return glm::normalize(glm::vec3(u, -1.0f, -v));
-    case 4: return glm::normalize(glm::vec3(u, -v, 1.0f));
-    case 5: return glm::normalize(glm::vec3(-u, -v, -1.0f));
-    default: throw std::invalid_argument(message("face: expected 0..5, got ", face));
+    case 0:
+        return glm::normalize(glm::vec3(1.0f, -v, -u));
+    case 1:
+        return glm::normalize(glm::vec3(-1.0f, -v, u));
+    case 2:
+        return glm::normalize(glm::vec3(u, 1.0f, v));
+    case 3:
+        return glm::normalize(glm::vec3(u, -1.0f, -v));
+    case 4:
+        return glm::normalize(glm::vec3(u, -v, 1.0f));
+    case 5:
+        return glm::normalize(glm::vec3(-u, -v, -1.0f));
+    default:
+        throw std::invalid_argument(message("face: expected 0..5, got ", face));
     }
 }
 

@@ -1,13 +1,17 @@
 // Lat-long map to cube faces, exactly.
 //
-// With s = sin(latitude) the solid angle is dlon ds, and the radiance L of the map is constant over each of its texels. Let
+// With s = sin(latitude) the solid angle is dlon ds, and the radiance L of the map is constant over each of
+// its texels. Let
 //   D(lon, s) = integral of L(lon, s') ds' from s to 1,
-// linear in s inside a texel. By Green's theorem the energy of a region is the integral of D dlon along its outline. The
-// outline of a cube texel is four arcs of great circles. Along one, tan(latitude) = A cos(psi), psi = lon - lon0, so
-//   s = A cos(psi) / sqrt(1 + A^2 cos^2(psi)),   integral of s dpsi = atan(A sin(psi) / sqrt(1 + A^2 cos^2(psi))),
-// and inside one texel of the map the integral of D is closed form. An arc is cut where it crosses the map's grid. Nothing
-// is sampled; neighbouring cube texels share their arcs, so what one loses the other gets. Arcs along a meridian have
-// dlon = 0. The face of -y measures D from the south pole, so that on either pole D = 0 where lon is undefined.
+// linear in s inside a texel. By Green's theorem the energy of a region is the integral of D dlon along its
+// outline. The outline of a cube texel is four arcs of great circles. Along one, tan(latitude) = A cos(psi),
+// psi = lon - lon0, so
+//   s = A cos(psi) / sqrt(1 + A^2 cos^2(psi)),   integral of s dpsi = atan(A sin(psi) / sqrt(1 + A^2
+//   cos^2(psi))),
+// and inside one texel of the map the integral of D is closed form. An arc is cut where it crosses the map's
+// grid. Nothing is sampled; neighbouring cube texels share their arcs, so what one loses the other gets. Arcs
+// along a meridian have dlon = 0. The face of -y measures D from the south pole, so that on either pole D = 0
+// where lon is undefined.
 #include "burnish/scene/environment_texels.h"
 
 #include <algorithm>
@@ -25,27 +29,44 @@ constexpr double PI = std::numbers::pi;
 
 Vec3 face_point(uint32_t face, double u, double v) {
     switch (face) {
-    case 0: return {1, -v, -u};
-    case 1: return {-1, -v, u};
-    case 2: return {u, 1, v};
-    case 3: return {u, -1, -v};
-    case 4: return {u, -v, 1};
-    default: return {-u, -v, -1};
+    case 0:
+        return {1, -v, -u};
+    case 1:
+        return {-1, -v, u};
+    case 2:
+        return {u, 1, v};
+    case 3:
+        return {u, -1, -v};
+    case 4:
+        return {u, -v, 1};
+    default:
+        return {-u, -v, -1};
     }
 }
 
-// Integral of dudv / (1 + u^2 + v^2)^(3/2) from (0, 0): the solid angle of a rectangle is its mixed difference.
+// Integral of dudv / (1 + u^2 + v^2)^(3/2) from (0, 0): the solid angle of a rectangle is its mixed
+// difference.
 double corner_solid_angle(double u, double v) {
     return std::atan2(u * v, std::sqrt(1.0 + u * u + v * v));
 }
 
 class LatLongEnergy {
 public:
-    LatLongEnergy(uint32_t height, uint32_t width, const std::vector<float>& radiance)
-        : height_(height), width_(width), radiance_(radiance), sin_latitude_(height + 1), tan_latitude_(height + 1),
+    LatLongEnergy(uint32_t height, uint32_t width, const std::vector<float>& radiance, LatLongGrid grid)
+        : height_(height), width_(width), row_steps_(height), column_period_(width), radiance_(radiance),
+          sin_latitude_(height + 1), tan_latitude_(height + 1),
           energy_above_(size_t{3} * width * (height + 1)) {
+        if (grid == LatLongGrid::samples) {
+            // Steps between centres: one less than texels. Edges lie half a step later, and the first and
+            // last column stand for one direction, so columns repeat after width - 1 and the last one is
+            // never read.
+            row_steps_ = height_ - 1;
+            column_period_ = width_ - 1;
+            edge_shift_ = 0.5;
+        }
         for (uint32_t row = 0; row <= height; ++row) {
-            const double latitude = PI * (0.5 - double(row) / height);
+            const double steps = (row - edge_shift_) / double(row_steps_);
+            const double latitude = PI * (0.5 - std::clamp(steps, 0.0, 1.0));
             sin_latitude_[row] = std::sin(latitude);
             tan_latitude_[row] = std::tan(latitude);
         }
@@ -58,7 +79,8 @@ public:
         }
     }
 
-    /// Integral of D dlon along the great circle arc from `start` to `end`; `from_south` measures D from the south pole.
+    /// Integral of D dlon along the great circle arc from `start` to `end`; `from_south` measures D from the
+    /// south pole.
     Vec3 along_arc(const Vec3& start, const Vec3& end, bool from_south) const {
         const Vec3 normal = glm::cross(start, end);
         if (normal.y == 0.0) {
@@ -67,8 +89,8 @@ public:
         Arc arc;
         const double begin_longitude = std::atan2(start.x, start.z);
         const double turn = std::remainder(std::atan2(end.x, end.z) - begin_longitude, 2.0 * PI);
-        // tan(latitude) = -(normal.x sin(lon) + normal.z cos(lon)) / normal.y; an arc never crosses the equator, so one
-        // sign of A holds and psi stays within a quarter turn.
+        // tan(latitude) = -(normal.x sin(lon) + normal.z cos(lon)) / normal.y; an arc never crosses the
+        // equator, so one sign of A holds and psi stays within a quarter turn.
         const double sine = -normal.x / normal.y;
         const double cosine = -normal.z / normal.y;
         arc.amplitude = std::hypot(sine, cosine);
@@ -105,13 +127,15 @@ private:
         const double step_sign = finish >= begin ? 1.0 : -1.0;
         const double side = begin + finish >= 0.0 ? 1.0 : -1.0; // the sign of psi
         const bool goes_north = (step_sign * side < 0.0) == (arc.amplitude > 0.0);
-        const double columns_per_radian = double(width_) / (2.0 * PI);
+        const double columns_per_radian = double(column_period_) / (2.0 * PI);
+        const double middle =
+            0.5 * double(column_period_) + edge_shift_; // the column coordinate of longitude 0
 
         const double latitude = std::atan(arc.amplitude * std::cos(begin));
-        const double first_row = std::floor((0.5 - latitude / PI) * double(height_));
+        const double first_row = std::floor((0.5 - latitude / PI) * double(row_steps_) + edge_shift_);
         int64_t row = std::clamp<int64_t>(static_cast<int64_t>(first_row), 0, height_ - 1);
         // Columns count against longitude.
-        const double x = 0.5 * double(width_) - (arc.longitude + begin) * columns_per_radian;
+        const double x = middle - (arc.longitude + begin) * columns_per_radian;
         int64_t column = static_cast<int64_t>(step_sign > 0.0 ? std::ceil(x) - 1.0 : std::floor(x));
 
         double psi = begin;
@@ -119,7 +143,7 @@ private:
         double row_psi = row_crossing(arc, row, goes_north, side, finish);
         while (step_sign * (finish - psi) > 0.0) {
             const double column_edge = step_sign > 0.0 ? double(column) : double(column + 1);
-            const double column_psi = (0.5 * double(width_) - column_edge) / columns_per_radian - arc.longitude;
+            const double column_psi = (middle - column_edge) / columns_per_radian - arc.longitude;
             const bool leaves_row = step_sign * (row_psi - column_psi) <= 0.0;
             double next = leaves_row ? row_psi : column_psi;
             const bool is_last = step_sign * (finish - next) <= 0.0;
@@ -153,30 +177,37 @@ private:
         return cosine >= 0.0 && cosine <= 1.0 ? side * std::acos(cosine) : finish;
     }
 
-    void add_piece(int64_t row, int64_t column, double turn, double latitude_turn, bool from_south, Vec3& sum) const {
-        const int64_t wrapped = ((column % width_) + width_) % width_;
+    void add_piece(int64_t row, int64_t column, double turn, double latitude_turn, bool from_south,
+                   Vec3& sum) const {
+        const int64_t wrapped = ((column % column_period_) + column_period_) % column_period_;
         const size_t texel = static_cast<size_t>(3 * (row * width_ + wrapped));
         const size_t whole = static_cast<size_t>(3 * (height_ * width_ + wrapped));
         const double sine = sin_latitude_[static_cast<size_t>(row)];
         for (int channel = 0; channel < 3; ++channel) {
             const auto i = static_cast<size_t>(channel);
             const double radiance = radiance_[texel + i];
-            const double above = (energy_above_[texel + i] + radiance * sine) * turn - radiance * latitude_turn;
+            const double above =
+                (energy_above_[texel + i] + radiance * sine) * turn - radiance * latitude_turn;
             sum[channel] += from_south ? above - energy_above_[whole + i] * turn : above;
         }
     }
 
     int64_t height_;
     int64_t width_;
+    int64_t row_steps_;     // rows in 180 degrees
+    int64_t column_period_; // columns in 360 degrees
+    double edge_shift_ =
+        0.0; // of the lower index edge of a texel against its place in LatLongGrid::bands, in texels
     const std::vector<float>& radiance_;
     std::vector<double> sin_latitude_; // of the upper edge of each row, and of the lower edge of the last
     std::vector<double> tan_latitude_;
     std::vector<double> energy_above_; // (row, column, channel): D at the upper edge of each row
 };
 
-// Fills `row_count` rows of one face. The lower arcs of a row are the upper ones of the next and are integrated once.
-void fill_rows(const LatLongEnergy& energy, uint32_t face, uint32_t first_row, uint32_t row_count, uint32_t face_size,
-               float* texels) {
+// Fills `row_count` rows of one face. The lower arcs of a row are the upper ones of the next and are
+// integrated once.
+void fill_rows(const LatLongEnergy& energy, uint32_t face, uint32_t first_row, uint32_t row_count,
+               uint32_t face_size, float* texels) {
     const bool is_pole = face == 2 || face == 3;
     const bool from_south = face == 3;
     const auto edge = [&](uint32_t i) { return 2.0 * i / face_size - 1.0; };
@@ -213,8 +244,8 @@ void fill_rows(const LatLongEnergy& energy, uint32_t face, uint32_t first_row, u
 } // namespace
 
 std::vector<float> cube_from_lat_long(uint32_t height, uint32_t width, const std::vector<float>& radiance,
-                                      uint32_t face_size) {
-    const LatLongEnergy energy(height, width, radiance);
+                                      uint32_t face_size, LatLongGrid grid) {
+    const LatLongEnergy energy(height, width, radiance, grid);
     std::vector<float> faces(size_t{6} * face_size * face_size * 3);
     // Sixteen rows are a good unit of work: those of the two pole faces take twice as long as others.
     const uint32_t rows = std::min(face_size, 16u);

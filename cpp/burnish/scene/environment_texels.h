@@ -8,11 +8,12 @@
 
 namespace burnish {
 
-/// Puts NaN, infinite and negative values right and clamps to `upper_limit` (>= HALF_MAX); `radiance` has three channels.
+/// Puts NaN, infinite and negative values right and clamps to `upper_limit` (>= HALF_MAX); `radiance` has
+/// three channels.
 TexelReport clean_texels(std::vector<float>& radiance, float upper_limit);
 
 /// The faces of Environment::from_lat_long, from clean texels.
 std::vector<float> cube_from_lat_long(uint32_t height, uint32_t width, const std::vector<float>& radiance,
-                                      uint32_t face_size);
+                                      uint32_t face_size, LatLongGrid grid);
 
 } // namespace burnish

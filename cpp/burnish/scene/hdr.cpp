@@ -1,8 +1,8 @@
-// Radiance pictures: a text header, a resolution line, then scanlines of shared-exponent pixels. A scanline is stored in
-// one of three ways, told apart by its first four bytes:
+// Radiance pictures: a text header, a resolution line, then scanlines of shared-exponent pixels. A scanline
+// is stored in one of three ways, told apart by its first four bytes:
 //   new RLE   2 2 and the length in two bytes, then four planes of runs; lengths 8..32767 only
-//   old RLE   four bytes a pixel, where 1 1 1 n repeats the last pixel n times; directly after another repeat, 256 n times
-//   flat      old RLE without repeats
+//   old RLE   four bytes a pixel, where 1 1 1 n repeats the last pixel n times; directly after another
+//   repeat, 256 n times flat      old RLE without repeats
 #include "burnish/scene/environment.h"
 
 #include <algorithm>
@@ -88,7 +88,8 @@ private:
 
     std::string_view next_line() {
         if (position_ >= bytes_.size()) {
-            fail("expected a resolution line such as '-Y 512 +X 1024', got the end of the file in the header");
+            fail(
+                "expected a resolution line such as '-Y 512 +X 1024', got the end of the file in the header");
         }
         const auto begin = bytes_.begin() + static_cast<std::ptrdiff_t>(position_);
         const auto end = std::find(begin, bytes_.end(), uint8_t{'\n'});
@@ -126,11 +127,12 @@ private:
 
     void read_variable(std::string_view line, Header& header) const {
         const auto value_of = [&](std::string_view name) -> std::optional<std::string> {
-            return line.starts_with(name) ? std::optional(std::string(line.substr(name.size()))) : std::nullopt;
+            return line.starts_with(name) ? std::optional(std::string(line.substr(name.size())))
+                                          : std::nullopt;
         };
         if (const auto format = value_of("FORMAT=")) {
-            const std::string_view name = std::string_view(*format).substr(std::min(format->find_first_not_of(' '),
-                                                                                    format->size()));
+            const std::string_view name =
+                std::string_view(*format).substr(std::min(format->find_first_not_of(' '), format->size()));
             header.is_xyz = name.starts_with("32-bit_rle_xyze");
             if (!header.is_xyz && !name.starts_with("32-bit_rle_rgbe")) {
                 fail("FORMAT: expected 32-bit_rle_rgbe or 32-bit_rle_xyze, got " + quoted(name));
@@ -167,13 +169,17 @@ private:
             std::string name;
             int64_t size = 0;
             text >> name >> size;
-            is_good = is_good && text && name.size() == 2 && is_resolution(name + " ") && size >= 1 && size <= 1'000'000;
+            is_good = is_good && text && name.size() == 2 && is_resolution(name + " ") && size >= 1 &&
+                      size <= 1'000'000;
             if (is_good) {
-                axis = {.is_x = name[1] == 'X', .is_increasing = name[0] == '+', .size = static_cast<uint32_t>(size)};
+                axis = {.is_x = name[1] == 'X',
+                        .is_increasing = name[0] == '+',
+                        .size = static_cast<uint32_t>(size)};
             }
         }
         if (!is_good || axes[0].is_x == axes[1].is_x) {
-            fail("expected a resolution line such as '-Y 512 +X 1024' with sizes in 1..1000000, got " + quoted(line));
+            fail("expected a resolution line such as '-Y 512 +X 1024' with sizes in 1..1000000, got " +
+                 quoted(line));
         }
         fast_ = axes[1];
         return axes[0];
@@ -182,13 +188,14 @@ private:
     void check_size(uint32_t scanline_count, uint32_t scanline_size) const {
         const uint64_t pixel_count = uint64_t{scanline_count} * scanline_size;
         if (pixel_count > MAX_PIXELS) {
-            fail(message("expected at most ", MAX_PIXELS, " pixels, got ", scanline_count, " scanlines of ", scanline_size));
+            fail(message("expected at most ", MAX_PIXELS, " pixels, got ", scanline_count, " scanlines of ",
+                         scanline_size));
         }
         // The tightest scanline is one pixel and one repeat.
         const uint64_t needed = uint64_t{scanline_count} * (scanline_size > 1 ? 8 : 4);
         if (bytes_left() < needed) {
-            fail(message("expected at least ", needed, " bytes for ", scanline_count, " scanlines of ", scanline_size,
-                         " pixels, got ", bytes_left()));
+            fail(message("expected at least ", needed, " bytes for ", scanline_count, " scanlines of ",
+                         scanline_size, " pixels, got ", bytes_left()));
         }
     }
 
@@ -198,7 +205,8 @@ private:
         const auto where = [&] { return message("scanline ", index, " of ", count); };
         const size_t width = scanline.size();
         const uint8_t* next = bytes_.data() + position_;
-        if (width >= 8 && width < 32768 && bytes_left() >= 4 && next[0] == 2 && next[1] == 2 && next[2] < 128) {
+        if (width >= 8 && width < 32768 && bytes_left() >= 4 && next[0] == 2 && next[1] == 2 &&
+            next[2] < 128) {
             const size_t declared = (size_t{next[2]} << 8) | next[3];
             if (declared != width) {
                 fail(message(where(), ": expected ", width, " pixels, got a run-length mark for ", declared));
@@ -222,10 +230,12 @@ private:
             const bool is_run = code > 128;
             const size_t length = is_run ? code - 128 : code;
             const size_t stored = is_run ? 1 : length;
-            if (length == 0 || length > scanline.size() - filled || stored > static_cast<size_t>(end - next)) {
+            if (length == 0 || length > scanline.size() - filled ||
+                stored > static_cast<size_t>(end - next)) {
                 fail(message(where(), ": expected ", scanline.size(), " bytes in channel ", plane, ", got ",
-                             next == end || stored > static_cast<size_t>(end - next) ? "the end of the file after "
-                                                                                     : "a broken run after ",
+                             next == end || stored > static_cast<size_t>(end - next)
+                                 ? "the end of the file after "
+                                 : "a broken run after ",
                              filled));
             }
             for (size_t i = 0; i < length; ++i) {
@@ -243,7 +253,8 @@ private:
         uint32_t repeat_shift = 0;
         while (filled < scanline.size()) {
             if (bytes_left() < 4) {
-                fail(message(where(), ": expected ", scanline.size(), " pixels, got the end of the file after ", filled));
+                fail(message(where(), ": expected ", scanline.size(),
+                             " pixels, got the end of the file after ", filled));
             }
             Pixel pixel;
             std::copy_n(bytes_.data() + position_, 4, pixel.begin());
@@ -255,7 +266,8 @@ private:
             }
             const size_t length = repeat_shift < 24 ? size_t{pixel[3]} << repeat_shift : scanline.size() + 1;
             if (filled == 0 || length > scanline.size() - filled) {
-                fail(message(where(), ": expected ", scanline.size(), " pixels, got a repeat of ", length, " after ", filled));
+                fail(message(where(), ": expected ", scanline.size(), " pixels, got a repeat of ", length,
+                             " after ", filled));
             }
             std::fill_n(scanline.begin() + static_cast<std::ptrdiff_t>(filled), length, scanline[filled - 1]);
             filled += length;
@@ -278,8 +290,8 @@ private:
     void store_scanline(std::span<const Pixel> scanline, uint32_t index, const Axis& slow, bool is_xyz,
                         const std::array<std::array<float, 256>, 3>& scales, HdrImage& image) const {
         // CIE XYZ to linear Rec. 709 with white D65, columns as GLM has them (IEC 61966-2-1, inverted).
-        const glm::mat3 rgb_from_xyz(3.2404542f, -0.9692660f, 0.0556434f, -1.5371385f, 1.8760108f, -0.2040259f,
-                                     -0.4985314f, 0.0415560f, 1.0572252f);
+        const glm::mat3 rgb_from_xyz(3.2404542f, -0.9692660f, 0.0556434f, -1.5371385f, 1.8760108f,
+                                     -0.2040259f, -0.4985314f, 0.0415560f, 1.0572252f);
         for (uint32_t j = 0; j < fast_.size; ++j) {
             const Axis& axis_x = slow.is_x ? slow : fast_;
             const Axis& axis_y = slow.is_x ? fast_ : slow;
@@ -289,7 +301,8 @@ private:
             const size_t column = axis_x.is_increasing ? x : axis_x.size - 1 - x;
             const size_t row = axis_y.is_increasing ? axis_y.size - 1 - y : y;
             const Pixel& pixel = scanline[j];
-            glm::vec3 value(pixel[0] * scales[0][pixel[3]], pixel[1] * scales[1][pixel[3]], pixel[2] * scales[2][pixel[3]]);
+            glm::vec3 value(pixel[0] * scales[0][pixel[3]], pixel[1] * scales[1][pixel[3]],
+                            pixel[2] * scales[2][pixel[3]]);
             if (is_xyz) {
                 value = rgb_from_xyz * value;
             }

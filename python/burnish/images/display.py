@@ -30,7 +30,8 @@ def display_image(linear: NDArray[Any], exposure: float = 0.0) -> NDArray[np.uin
     Parameters
     ----------
     linear : (h, w), (h, w, 3) or (h, w, 4) array
-        Linear Rec. 709 radiance. A fourth channel is coverage and is only clipped. NaN shows black, +inf white.
+        Linear Rec. 709 radiance. A fourth channel is coverage and is only clipped. NaN shows black, +inf
+        white.
     exposure : float
         Stops: colours are multiplied by 2**exposure first.
 

@@ -1,5 +1,7 @@
 """OpenEXR pictures through the OpenEXR package."""
 
+import contextlib
+import io
 import json
 import os
 from collections.abc import Mapping
@@ -16,16 +18,22 @@ _HALF_MAX = 65504.0
 
 
 def _color_names(path: str | os.PathLike[str], part: ExrPart) -> list[str]:
-    """Names of the channels that make red, green, blue and perhaps alpha; a missing colour is an empty name."""
+    """Names of the channels that make red, green, blue and perhaps alpha; a missing colour is an empty
+    name.
+    """
     names = [channel.name for channel in part.channels]
     prefix = ""
     if not {"R", "G", "B", "Y"} & set(names):
         layers = sorted({n[: n.rindex(".") + 1] for n in names if n.endswith((".R", ".G", ".B"))})
         if len(layers) != 1:
-            raise file_error(path, f"expected channels R, G, B or Y, or one layer of them, got {', '.join(names)}")
+            raise file_error(
+                path, f"expected channels R, G, B or Y, or one layer of them, got {', '.join(names)}"
+            )
         prefix = layers[0]
     if {"RY", "BY"} & set(names):
-        raise file_error(path, "expected RGB or Y, got luminance-chroma channels (Y, RY, BY); convert the file to RGB")
+        raise file_error(
+            path, "expected RGB or Y, got luminance-chroma channels (Y, RY, BY); convert the file to RGB"
+        )
     if "Y" in names and not {"R", "G", "B"} & set(names):
         color = ["Y", "Y", "Y"]
     else:
@@ -40,11 +48,18 @@ def _color_names(path: str | os.PathLike[str], part: ExrPart) -> list[str]:
 
 def _decode(path: str | os.PathLike[str]) -> dict[str, NDArray[Any]]:
     """Level 0 of every channel of the first part."""
+    printed = io.StringIO()  # where samples are damaged the package prints a warning and returns no part
     try:
-        with OpenEXR.File(os.fspath(path), separate_channels=True) as file:
-            return {name: channel.pixels for name, channel in file.parts[0].channels.items()}
+        with (
+            contextlib.redirect_stdout(printed),
+            OpenEXR.File(os.fspath(path), separate_channels=True) as file,
+        ):
+            if file.parts:
+                return {name: channel.pixels for name, channel in file.parts[0].channels.items()}
     except Exception as error:  # the package raises what its C++ side throws, UnicodeDecodeError included
-        raise file_error(path, f"OpenEXR cannot decode it, it is damaged or incomplete ({error})") from error
+        raise file_error(path, f"expected a sound OpenEXR file, the library says: {error}") from error
+    said = " ".join(printed.getvalue().split()) or "no samples"
+    raise file_error(path, f"expected all its samples, some are damaged or missing ({said})")
 
 
 def _to_display_window(part: ExrPart, pixels: NDArray[np.float32]) -> NDArray[np.float32]:
@@ -65,9 +80,9 @@ def _to_display_window(part: ExrPart, pixels: NDArray[np.float32]) -> NDArray[np
 def read_exr(path: str | os.PathLike[str]) -> tuple[NDArray[np.float32], int | None]:
     """Read the first part of an OpenEXR file.
 
-    Half, float and uint samples, scan lines and tiles (level 0), any compression the OpenEXR package knows. A missing colour
-    is 0; luminance alone gives grey. The picture is what the display window shows, 0 where there is no data; environment
-    maps, marked by the attribute envmap, are their data window.
+    Half, float and uint samples, scan lines and tiles (level 0), any compression the OpenEXR package knows. A
+    missing colour is 0; luminance alone gives grey. The picture is what the display window shows, 0 where
+    there is no data; environment maps, marked by the attribute envmap, are their data window.
 
     Parameters
     ----------
@@ -94,7 +109,9 @@ def read_exr(path: str | os.PathLike[str]) -> tuple[NDArray[np.float32], int | N
     for i, name in enumerate(names):
         if name:
             if name not in channels or channels[name].shape != (height, width):
-                raise file_error(path, f"channel {name}: expected {height} x {width} samples, got none or another shape")
+                raise file_error(
+                    path, f"channel {name}: expected {height} x {width} samples, got none or another shape"
+                )
             pixels[..., i] = channels[name]
     return (pixels if part.envmap is not None else _to_display_window(part, pixels)), part.envmap
 
@@ -112,7 +129,9 @@ def _split_channels(image: NDArray[Any] | Mapping[str, NDArray[Any]]) -> dict[st
             for i, suffix in enumerate("RGBA"[: array.shape[2]]):
                 channels[prefix + suffix] = array[..., i]
         else:
-            raise ValueError(f"image: expected shape (h, w), (h, w, 3) or (h, w, 4) for {key!r}, got {array.shape}")
+            raise ValueError(
+                f"image: expected shape (h, w), (h, w, 3) or (h, w, 4) for {key!r}, got {array.shape}"
+            )
     shapes = {array.shape for array in channels.values()}
     if len(shapes) != 1:
         raise ValueError(f"image: expected channels of one size, got {sorted(shapes)}")
@@ -139,15 +158,25 @@ def write_exr(
     path : path
         Replaced in one step when all is written.
     image : array or mapping of names to arrays
-        (h, w), (h, w, 3) or (h, w, 4). An array alone, or under "RGB" or "RGBA", gives channels R, G, B, A; a colour array
-        under another name gives name.R, name.G, ...; a plain (h, w) array gives the channel of that name.
+        (h, w), (h, w, 3) or (h, w, 4). An array alone, or under "RGB" or "RGBA", gives channels R, G, B, A; a
+        colour array under another name gives name.R, name.G, ...; a plain (h, w) array gives the channel of
+        that name.
     metadata : mapping or None
         Header attributes: text as it is, everything else as JSON text.
     half : bool
         Round to half floats, finite values clamped to their range. Otherwise float32; uint32 arrays stay.
     """
     header: dict[str, Any] = {"compression": OpenEXR.ZIP_COMPRESSION, "type": OpenEXR.scanlineimage}
-    reserved = {*header, "channels", "dataWindow", "displayWindow", "lineOrder", "pixelAspectRatio", "tiles", "name"}
+    reserved = {
+        *header,
+        "channels",
+        "dataWindow",
+        "displayWindow",
+        "lineOrder",
+        "pixelAspectRatio",
+        "tiles",
+        "name",
+    }
     for name, value in (metadata or {}).items():
         if not name or name in reserved or name.startswith("screenWindow"):
             raise ValueError(f"metadata: expected names that OpenEXR does not use itself, got {name!r}")

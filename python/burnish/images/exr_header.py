@@ -1,7 +1,7 @@
 """What an OpenEXR file declares, read with bounds before any library decodes it.
 
-A file of a few hundred bytes can declare gigabytes. So the header is parsed here first: sizes are held against the limits
-of `files` and against the bytes that the file really has.
+A file of a few hundred bytes can declare gigabytes. So the header is parsed here first: sizes are held
+against the limits of `files` and against the bytes that the file really has.
 """
 
 import os
@@ -51,7 +51,8 @@ class ExrPart:
         """Bytes of all samples of level 0."""
         height, width = self.size
         return sum(
-            -(-height // c.sampling[1]) * -(-width // c.sampling[0]) * c.bytes_per_sample for c in self.channels
+            -(-height // c.sampling[1]) * -(-width // c.sampling[0]) * c.bytes_per_sample
+            for c in self.channels
         )
 
     def chunk_count(self) -> int:
@@ -93,7 +94,9 @@ def _window(cursor: _Cursor, name: str, value: bytes) -> tuple[int, int, int, in
     window = struct.unpack("<4i", value)
     x_min, y_min, x_max, y_max = window
     if x_max < x_min or y_max < y_min or max(map(abs, window)) > 1 << 30:
-        raise cursor.fail(f"{name}: expected a window with min <= max and coordinates below 2^30, got {window}")
+        raise cursor.fail(
+            f"{name}: expected a window with min <= max and coordinates below 2^30, got {window}"
+        )
     require_pixels(cursor.path, f"OpenEXR header: {name}", y_max - y_min + 1, x_max - x_min + 1)
     return x_min, y_min, x_max, y_max
 
@@ -102,10 +105,10 @@ def _channels(cursor: _Cursor, value: bytes) -> list[ExrChannel]:
     entries = _Cursor(cursor.path, value)
     channels = []
     while name := entries.text("channels"):
-        pixel_type, _, x_sampling, y_sampling = struct.unpack("<4i", entries.take(16, f"channel {name!r}"))
+        pixel_type, _, x_sampling, y_sampling = struct.unpack("<4i", entries.take(16, f"channel {name!a}"))
         if pixel_type not in _BYTES_OF_TYPE or x_sampling < 1 or y_sampling < 1:
             raise cursor.fail(
-                f"channel {name!r}: expected pixel type 0..2 and sampling >= 1, "
+                f"channel {name!a}: expected pixel type 0..2 and sampling >= 1, "
                 f"got type {pixel_type} and sampling {x_sampling}, {y_sampling}"
             )
         channels.append(ExrChannel(name, (x_sampling, y_sampling), _BYTES_OF_TYPE[pixel_type]))
@@ -116,13 +119,15 @@ _EXPECTED_SIZE = {"dataWindow": 16, "displayWindow": 16, "compression": 1, "tile
 
 
 def _read_part(cursor: _Cursor) -> ExrPart | None:
-    """Read attributes up to the empty name; None where there is none at all, which ends a multi-part header."""
+    """Read attributes up to the empty name; None where there is none at all, which ends a multi-part
+    header.
+    """
     part = ExrPart()
     seen = set()
     while name := cursor.text("attribute"):
-        cursor.text(f"type of {name!r}")
-        (size,) = struct.unpack("<i", cursor.take(4, f"size of {name!r}"))
-        value = cursor.take(size, f"attribute {name!r}")
+        cursor.text(f"type of {name!a}")
+        (size,) = struct.unpack("<i", cursor.take(4, f"size of {name!a}"))
+        value = cursor.take(size, f"attribute {name!a}")
         if size != _EXPECTED_SIZE.get(name, size):
             raise cursor.fail(f"{name}: expected {_EXPECTED_SIZE[name]} bytes, got {size}")
         seen.add(name)
@@ -146,7 +151,9 @@ def _read_part(cursor: _Cursor) -> ExrPart | None:
         return None
     missing = {"dataWindow", "displayWindow", "channels", "compression"} - seen
     if missing:
-        raise cursor.fail(f"expected the attributes every OpenEXR file has, got none named {', '.join(sorted(missing))}")
+        raise cursor.fail(
+            f"expected the attributes every OpenEXR file has, got none named {', '.join(sorted(missing))}"
+        )
     return part
 
 
@@ -177,7 +184,9 @@ def read_exr_header(path: str | os.PathLike[str]) -> list[ExrPart]:
         raise cursor.fail("magic number: expected 76 2f 31 01, got others")
     (version,) = struct.unpack("<I", cursor.take(4, "version"))
     if version & 0xFF != 2 or version & ~(0xFF | _TILED | _LONG_NAMES | _DEEP | _MULTI_PART):
-        raise cursor.fail(f"version: expected 2 with known flags, got {version & 0xFF} with flags {version >> 8:#x}")
+        raise cursor.fail(
+            f"version: expected 2 with known flags, got {version & 0xFF} with flags {version >> 8:#x}"
+        )
     parts = []
     while (part := _read_part(cursor)) is not None:
         parts.append(part)
@@ -200,4 +209,6 @@ def _check_against_size(cursor: _Cursor, parts: list[ExrPart], file_size: int) -
     # A chunk needs at least its entry in the table of offsets, its coordinate and its length.
     needed = cursor.position + 16 * sum(part.chunk_count() for part in parts)
     if file_size < needed:
-        raise file_error(cursor.path, f"expected at least {needed} bytes for the declared chunks, got {file_size}")
+        raise file_error(
+            cursor.path, f"expected at least {needed} bytes for the declared chunks, got {file_size}"
+        )

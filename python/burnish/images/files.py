@@ -31,7 +31,9 @@ def replacing(path: str | os.PathLike[str]) -> Iterator[str]:
     """Give the name of a temporary file beside `path` that becomes `path` when the block succeeds."""
     target = Path(path)
     try:
-        descriptor, temporary = tempfile.mkstemp(prefix=f".{target.name}-", suffix=target.suffix, dir=target.parent)
+        descriptor, temporary = tempfile.mkstemp(
+            prefix=f".{target.name}-", suffix=target.suffix, dir=target.parent
+        )
     except OSError as error:
         raise file_error(path, f"cannot write into {target.parent}: {error.strerror}") from error
     os.close(descriptor)
