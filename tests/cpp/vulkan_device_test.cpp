@@ -82,7 +82,8 @@ TEST(Validation, EnvironmentVariableTurnsItOn) {
 std::shared_ptr<Device> validated_device() {
     try {
         return Device::create({.validation = true});
-    } catch (const VulkanError&) {
+    } catch (const VulkanError& error) {
+        if (std::string(error.what()).find("vulkan-validationlayers") == std::string::npos) throw;
         return nullptr;
     }
 }
