@@ -6,6 +6,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from burnish._core import Environment
+from burnish.cube_layout import cube_solid_angles
 
 Float64 = NDArray[np.float64]
 
@@ -102,10 +103,12 @@ def sky(
     # The horizon is as soft as a texel and a little haze.
     blend = _smooth_step(-0.01 - 2.0 / face_size, 0.01 + 2.0 / face_size, up)[..., None]
     radiance = ground + (above - ground) * blend
-    radius = max(math.radians(0.5 * sun_diameter), 2.0 / face_size)
-    dimming = (math.radians(0.5 * sun_diameter) / radius) ** 2
-    sun = _disc_coverage(directions, toward_sun, radius, face_size)[..., None] * blend
-    return _finish(radiance + sun * sun_radiance * dimming * np.array([1.0, 0.93, 0.82]), "sky")
+    radius = math.radians(0.5 * sun_diameter)
+    cover = _disc_coverage(directions, toward_sun, max(radius, 2.0 / face_size), face_size)
+    # The drawn disc is soft and perhaps too wide: what it holds is scaled to what the true disc would.
+    drawn = float((cover * cube_solid_angles(face_size)).sum())
+    sun = cover[..., None] * blend * (2.0 * math.pi * (1.0 - math.cos(radius)) / drawn)
+    return _finish(radiance + sun * sun_radiance * np.array([1.0, 0.93, 0.82]), "sky")
 
 
 _SOFT_BOXES = (
