@@ -152,7 +152,7 @@ TEST(Ownership, AssignmentFreesTheOldObject) {
 TEST(Memory, ManySmallImagesShareFewBlocks) {
     const auto device = Device::create();
     std::vector<Image> images;
-    for (int i = 0; i < 500; ++i) {
+    for (int i = 0; i < 1000; ++i) {
         images.emplace_back(device, ImageSettings{.format = VK_FORMAT_R16G16B16A16_SFLOAT,
                                                   .width = 32,
                                                   .height = 32,
@@ -162,8 +162,9 @@ TEST(Memory, ManySmallImagesShareFewBlocks) {
     }
     const MemoryStatistics full = device->memory_statistics();
     EXPECT_LE(full.blocks, 3u);
-    EXPECT_EQ(full.allocations, 500u);
-    EXPECT_GE(full.used_bytes, 500u * 6 * 32 * 32 * 8);
+    EXPECT_GE(full.blocks, 2u);
+    EXPECT_EQ(full.allocations, 1000u);
+    EXPECT_GE(full.used_bytes, 1000u * 6 * 32 * 32 * 8);
     EXPECT_LE(full.used_bytes, full.reserved_bytes);
 
     // Every other one goes and comes back: the holes are used again.
