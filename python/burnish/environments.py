@@ -23,7 +23,8 @@ def cube_directions(face_size: int) -> Float64:
     one = np.ones_like(u)
     faces = [(one, -v, -u), (-one, -v, u), (u, one, v), (u, -one, -v), (u, -v, one), (-u, -v, -one)]
     directions = np.stack([np.stack(face, axis=-1) for face in faces])
-    return directions / np.linalg.norm(directions, axis=-1, keepdims=True)
+    unit: Float64 = directions / np.linalg.norm(directions, axis=-1, keepdims=True)
+    return unit
 
 
 def _finish(radiance: NDArray[np.floating], name: str) -> Environment:
@@ -36,7 +37,7 @@ def _unit(direction: ArrayLike, name: str) -> Float64:
     vector = np.asarray(direction, np.float64)
     length = float(np.linalg.norm(vector)) if vector.shape == (3,) else 0.0
     if not (math.isfinite(length) and length > 0.0):
-        raise ValueError(f"{name}: expected three finite numbers, not all 0, got {direction}")
+        raise ValueError(f"{name}: expected three finite numbers, not all 0, got {direction!r}")
     return vector / length
 
 
@@ -47,7 +48,8 @@ def _disc_coverage(directions: Float64, center: Float64, radius: float, face_siz
     # A texel is 2/N wide on a face at distance 1; toward the corners it shrinks by r = |w|/|w|_inf, one way
     # by r, one by r^2.
     width = 2.0 / face_size * np.max(np.abs(directions), axis=-1) ** 1.5
-    return np.clip((radius - angle) / width + 0.5, 0.0, 1.0)
+    coverage: Float64 = np.clip((radius - angle) / width + 0.5, 0.0, 1.0)
+    return coverage
 
 
 def _smooth_step(low: float, high: float, value: Float64) -> Float64:

@@ -50,7 +50,8 @@ def display_image(linear: NDArray[Any], exposure: float = 0.0) -> NDArray[np.uin
         if has_alpha:
             alpha = np.clip(np.nan_to_num(linear[..., 3:], nan=0.0), 0.0, 1.0)
             encoded = np.concatenate([encoded, alpha], axis=2)
-        return np.rint(encoded * 255.0).astype(np.uint8)
+        pixels: NDArray[np.uint8] = np.rint(encoded * 255.0).astype(np.uint8)
+        return pixels
 
 
 def write_png(path: str | os.PathLike[str], image: NDArray[Any], exposure: float = 0.0) -> None:

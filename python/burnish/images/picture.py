@@ -37,8 +37,9 @@ def _read_display_referred(path: str | os.PathLike[str], name: str) -> NDArray[n
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")  # Pillow warns of sizes that are checked here, and of broken Exif
-            with Image.open(path, formats=[name]) as picture:
-                require_pixels(path, name, picture.height, picture.width)
+            with Image.open(path, formats=[name]) as file:
+                require_pixels(path, name, file.height, file.width)
+                picture: Image.Image = file
                 scale = 65535.0 if picture.mode.startswith("I") else 255.0
                 if scale == 255.0:
                     has_alpha = "A" in picture.getbands() or "transparency" in picture.info
