@@ -1,0 +1,83 @@
+"""One concept, one name: every function of glsl/lib has its float64 twin in burnish.oracle, or a reason."""
+
+import importlib
+import pkgutil
+import re
+from pathlib import Path
+
+import burnish.oracle
+
+REPOSITORY = Path(__file__).resolve().parents[3]
+FUNCTION = re.compile(r"^(?:void|bool|u?int|float|u?vec[234]|mat[234])\s+(\w+)\s*\(", re.MULTILINE)
+
+# Twins under another name: why it differs.
+NAMED_OTHERWISE = {
+    "mip_level": ("level_of_texels", "the oracle's also adds the bias and clamps"),
+    "texels_exact": (
+        "exact_texels",
+        "the shader's part that does not depend on the pattern is hoisted into its table",
+    ),
+    "texels_published": (
+        "published_texels",
+        "the shader's part that does not depend on the pattern is hoisted",
+    ),
+    "published_area_term": ("published_area", "the factor that depends on the view only"),
+    "grazing_term": ("grazing_factor", "the shader's takes cosines that are already clamped"),
+    "sample_kurt": ("kurt_sample", "sampling triples are spelled differently on the two sides"),
+    "kurt_value": ("kurt_brdf", "without Fresnel and weight, which the kernel applies to colours"),
+    "irradiance_over_pi": ("irradiance", "the shader's coefficients have 1/pi in them"),
+    "slope_from_perceptual": ("map_metallic_roughness", "the first step of the mapping"),
+    "schlick_weight": ("schlick_fresnel", "the fifth power alone"),
+}
+
+# Functions without a twin: why none is needed.
+WITHOUT_TWIN = {
+    "sign_not_zero": "one comparison; covered by the octahedral pair that uses it",
+    "diamond_encode": "storage format; its test is the round trip through diamond_decode",
+    "diamond_decode": "storage format; its test is the round trip through diamond_encode",
+    "longitude_frame": "storage format; the frame that packed tangents are an angle in",
+    "pack_surface": "storage format; its test is the round trip through unpack_frame",
+    "has_surface": "storage format; one bit test",
+    "unpack_material": "storage format; the inverse of pack_surface",
+    "unpack_normal": "storage format; the inverse of pack_surface",
+    "unpack_frame": "storage format; the inverse of pack_surface",
+    "hash_uint": "random numbers of the progressive reference; its test is statistical",
+    "unit_from_uint": "random numbers of the progressive reference; its test is statistical",
+    "recurrence_2d": "random numbers of the progressive reference; its test is statistical",
+    "recurrence_3d": "random numbers of the progressive reference; its test is statistical",
+}
+
+
+def glsl_functions():
+    root = REPOSITORY / "glsl/lib"
+    return {
+        name: path.name for path in sorted(root.glob("*.glsl")) for name in FUNCTION.findall(path.read_text())
+    }
+
+
+def oracle_functions():
+    names = set()
+    for module in pkgutil.iter_modules(burnish.oracle.__path__):
+        names |= {
+            n for n in vars(importlib.import_module(f"burnish.oracle.{module.name}")) if not n.startswith("_")
+        }
+    return names
+
+
+def test_every_lib_function_has_a_twin_or_a_reason():
+    twins = oracle_functions()
+    missing = [
+        f"{name} ({path})"
+        for name, path in glsl_functions().items()
+        if name not in twins and name not in NAMED_OTHERWISE and name not in WITHOUT_TWIN
+    ]
+    assert not missing, (
+        f"no function of that name in burnish.oracle, and no reason here: {', '.join(missing)}"
+    )
+
+
+def test_the_exceptions_are_not_stale():
+    functions, twins = glsl_functions(), oracle_functions()
+    assert not [name for name in [*NAMED_OTHERWISE, *WITHOUT_TWIN] if name not in functions]
+    assert not [name for name in [*NAMED_OTHERWISE, *WITHOUT_TWIN] if name in twins]
+    assert not [twin for twin, _ in NAMED_OTHERWISE.values() if twin not in twins]
