@@ -10,12 +10,10 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
-#include <optional>
 #include <span>
-#include <sstream>
-#include <string_view>
 
 #include "burnish/error.h"
+#include "burnish/scene/hdr_header.h"
 
 namespace burnish {
 
@@ -27,18 +25,6 @@ constexpr uint64_t MAX_PIXELS = uint64_t{1} << 26;
 constexpr uint64_t MAX_FILE_BYTES = 5 * MAX_PIXELS;
 
 using Pixel = std::array<uint8_t, 4>; // red, green, blue mantissas (or X, Y, Z) and the exponent
-
-struct Header {
-    bool is_xyz = false;
-    glm::dvec3 divisor{1.0}; // product of all EXPOSURE and COLORCORR
-};
-
-// One axis of the resolution line.
-struct Axis {
-    bool is_x = false;
-    bool is_increasing = false;
-    uint32_t size = 0;
-};
 
 class HdrReader {
 public:
@@ -58,8 +44,10 @@ public:
     }
 
     HdrImage read() {
-        const Header header = read_header();
-        const Axis slow = read_axes();
+        const HdrHeader header = parse_hdr_header(path_, bytes_);
+        position_ = header.size_bytes;
+        fast_ = header.fast;
+        const HdrAxis& slow = header.slow;
         HdrImage image;
         image.width = slow.is_x ? slow.size : fast_.size;
         image.height = slow.is_x ? fast_.size : slow.size;
@@ -76,114 +64,6 @@ public:
 
 private:
     [[noreturn]] void fail(const std::string& reason) const { throw FileError(path_, reason); }
-
-    // A file may quote anything, so what it says is shown short and printable.
-    static std::string quoted(std::string_view text) {
-        std::string shown = "'";
-        for (const char c : text.substr(0, 40)) {
-            shown += c >= ' ' && c <= '~' ? c : '?';
-        }
-        return shown + (text.size() > 40 ? "...'" : "'");
-    }
-
-    std::string_view next_line() {
-        if (position_ >= bytes_.size()) {
-            fail(
-                "expected a resolution line such as '-Y 512 +X 1024', got the end of the file in the header");
-        }
-        const auto begin = bytes_.begin() + static_cast<std::ptrdiff_t>(position_);
-        const auto end = std::find(begin, bytes_.end(), uint8_t{'\n'});
-        std::string_view line(reinterpret_cast<const char*>(&*begin), static_cast<size_t>(end - begin));
-        position_ += line.size() + 1;
-        if (!line.empty() && line.back() == '\r') {
-            line.remove_suffix(1);
-        }
-        return line;
-    }
-
-    static bool is_resolution(std::string_view line) {
-        return line.size() > 2 && (line[0] == '-' || line[0] == '+') && (line[1] == 'X' || line[1] == 'Y');
-    }
-
-    Header read_header() {
-        const std::string_view magic = next_line();
-        if (!magic.starts_with("#?")) {
-            fail("expected a Radiance picture starting with '#?', got " + quoted(magic));
-        }
-        Header header;
-        while (true) {
-            const size_t line_start = position_;
-            const std::string_view line = next_line();
-            if (line.empty()) {
-                return header;
-            }
-            if (is_resolution(line)) { // some writers forget the empty line
-                position_ = line_start;
-                return header;
-            }
-            read_variable(line, header);
-        }
-    }
-
-    void read_variable(std::string_view line, Header& header) const {
-        const auto value_of = [&](std::string_view name) -> std::optional<std::string> {
-            return line.starts_with(name) ? std::optional(std::string(line.substr(name.size())))
-                                          : std::nullopt;
-        };
-        if (const auto format = value_of("FORMAT=")) {
-            const std::string_view name =
-                std::string_view(*format).substr(std::min(format->find_first_not_of(' '), format->size()));
-            header.is_xyz = name.starts_with("32-bit_rle_xyze");
-            if (!header.is_xyz && !name.starts_with("32-bit_rle_rgbe")) {
-                fail("FORMAT: expected 32-bit_rle_rgbe or 32-bit_rle_xyze, got " + quoted(name));
-            }
-        } else if (const auto exposure = value_of("EXPOSURE=")) {
-            std::istringstream text(*exposure);
-            double factor = 0.0;
-            text >> factor;
-            header.divisor *= checked_factor("EXPOSURE", factor, *exposure);
-        } else if (const auto correction = value_of("COLORCORR=")) {
-            std::istringstream text(*correction);
-            glm::dvec3 factor(0.0);
-            text >> factor.x >> factor.y >> factor.z;
-            for (int channel = 0; channel < 3; ++channel) {
-                header.divisor[channel] *= checked_factor("COLORCORR", factor[channel], *correction);
-            }
-        }
-    }
-
-    double checked_factor(const char* name, double factor, const std::string& text) const {
-        if (!(factor >= 1e-30 && factor <= 1e30)) {
-            fail(message(name, ": expected a positive number in 1e-30..1e30, got ", quoted(text)));
-        }
-        return factor;
-    }
-
-    // Sets the fast axis, along a scanline, and returns the slow one.
-    Axis read_axes() {
-        const std::string_view line = next_line();
-        std::istringstream text{std::string(line)};
-        std::array<Axis, 2> axes;
-        bool is_good = true;
-        for (Axis& axis : axes) {
-            std::string name;
-            int64_t size = 0;
-            text >> name >> size;
-            is_good = is_good && text && name.size() == 2 && is_resolution(name + " ") && size >= 1 &&
-                      size <= 1'000'000;
-            if (is_good) {
-                axis = {.is_x = name[1] == 'X',
-                        .is_increasing = name[0] == '+',
-                        .size = static_cast<uint32_t>(size)};
-            }
-        }
-        if (!is_good || axes[0].is_x == axes[1].is_x) {
-            fail("expected a resolution line such as '-Y 512 +X 1024' with sizes in 1..1000000, got " +
-                 quoted(line));
-        }
-        fast_ = axes[1];
-        return axes[0];
-    }
 
     void check_size(uint32_t scanline_count, uint32_t scanline_size) const {
         const uint64_t pixel_count = uint64_t{scanline_count} * scanline_size;
@@ -276,7 +156,7 @@ private:
     }
 
     // value = mantissa 2^(exponent - 136) / divisor; exponent 0 is black.
-    static std::array<std::array<float, 256>, 3> make_scales(const Header& header) {
+    static std::array<std::array<float, 256>, 3> make_scales(const HdrHeader& header) {
         std::array<std::array<float, 256>, 3> scales{};
         for (size_t channel = 0; channel < 3; ++channel) {
             const auto factor = static_cast<float>(1.0 / header.divisor[static_cast<int>(channel)]);
@@ -287,14 +167,14 @@ private:
         return scales;
     }
 
-    void store_scanline(std::span<const Pixel> scanline, uint32_t index, const Axis& slow, bool is_xyz,
+    void store_scanline(std::span<const Pixel> scanline, uint32_t index, const HdrAxis& slow, bool is_xyz,
                         const std::array<std::array<float, 256>, 3>& scales, HdrImage& image) const {
         // CIE XYZ to linear Rec. 709 with white D65, columns as GLM has them (IEC 61966-2-1, inverted).
         const glm::mat3 rgb_from_xyz(3.2404542f, -0.9692660f, 0.0556434f, -1.5371385f, 1.8760108f,
                                      -0.2040259f, -0.4985314f, 0.0415560f, 1.0572252f);
         for (uint32_t j = 0; j < fast_.size; ++j) {
-            const Axis& axis_x = slow.is_x ? slow : fast_;
-            const Axis& axis_y = slow.is_x ? fast_ : slow;
+            const HdrAxis& axis_x = slow.is_x ? slow : fast_;
+            const HdrAxis& axis_y = slow.is_x ? fast_ : slow;
             const uint32_t x = slow.is_x ? index : j;
             const uint32_t y = slow.is_x ? j : index;
             // x grows to the right, y upward: -Y means that the first row is the top one.
@@ -316,7 +196,7 @@ private:
     std::string path_;
     std::vector<uint8_t> bytes_;
     size_t position_ = 0;
-    Axis fast_;
+    HdrAxis fast_;
 };
 
 } // namespace
