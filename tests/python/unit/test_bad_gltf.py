@@ -1,0 +1,105 @@
+"""Hostile glTF and picture files: each in its own process, with little memory and time."""
+
+import json
+import resource
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+BAD_INPUT = Path(__file__).parents[3].parent / "shared" / "data" / "bad-input"
+FOLDERS = ["assimp", "gltf-validator", "tinygltf"]
+MAX_RSS_BYTES = 2 << 30
+MAX_ADDRESS_BYTES = 4 << 30
+SECONDS = 30
+
+SCENES = sorted(
+    path for folder in FOLDERS for path in (BAD_INPUT / folder).rglob("*") if path.suffix in (".gltf", ".glb")
+)
+PICTURES = sorted(path for path in BAD_INPUT.rglob("*") if path.suffix in (".png", ".jpg", ".jpeg"))
+
+# Without errors for the validator, yet refused: the file asks for more than this reader has.
+REFUSED_THOUGH_VALID = {
+    "non_relative_uri.gltf": "another scheme",
+    "min_version_valid.gltf": "asset.minVersion: expected at most 2.0",
+}
+
+LOAD = """
+import json, resource, sys
+import burnish
+try:
+    scene = burnish.Scene.from_file(sys.argv[1])
+    result = {"loaded": True, "warnings": scene.warnings, "images": scene.image_count}
+except burnish.FileError as error:
+    result = {"loaded": False, "error": str(error)}
+result["rss"] = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * 1024
+print(json.dumps(result))
+"""
+
+pytestmark = pytest.mark.skipif(not BAD_INPUT.is_dir(), reason=f"{BAD_INPUT} is absent")
+
+
+def load_apart(path: Path) -> dict:
+    def limit_memory() -> None:
+        resource.setrlimit(resource.RLIMIT_AS, (MAX_ADDRESS_BYTES, MAX_ADDRESS_BYTES))
+
+    done = subprocess.run(
+        [sys.executable, "-c", LOAD, str(path)],
+        capture_output=True,
+        text=True,
+        timeout=SECONDS,
+        preexec_fn=limit_memory,
+        check=False,
+    )
+    assert done.returncode == 0, f"{path} ended with {done.returncode}:\n{done.stderr}"
+    result = json.loads(done.stdout.splitlines()[-1])
+    assert result["rss"] < MAX_RSS_BYTES, f"{path} took {result['rss'] / 2**30:.1f} GiB"
+    return result
+
+
+def name_of(path: Path) -> str:
+    return str(path.relative_to(BAD_INPUT))
+
+
+@pytest.mark.parametrize("path", SCENES, ids=name_of)
+def test_bad_gltf_loads_or_says_why(path):
+    result = load_apart(path)
+    report = path.with_name(path.name + ".report.json")
+    is_valid = report.is_file() and json.loads(report.read_text())["issues"]["numErrors"] == 0
+    if result["loaded"]:
+        return
+    reason = result["error"]
+    assert reason.startswith(str(path)), "the path comes first"
+    assert len(reason) > len(str(path)) + 10
+    if is_valid:
+        assert REFUSED_THOUGH_VALID[path.name] in reason
+
+
+@pytest.mark.parametrize("path", PICTURES, ids=name_of)
+def test_bad_picture_is_read_or_named(path, tmp_path):
+    (tmp_path / path.name).symlink_to(path)
+    document = {
+        "asset": {"version": "2.0"},
+        "images": [{"uri": path.name}],
+        "textures": [{"source": 0}],
+        "materials": [{"emissiveTexture": {"index": 0}}],
+    }
+    scene = tmp_path / "scene.gltf"
+    scene.write_text(json.dumps(document))
+    result = load_apart(scene)
+    assert result["loaded"]
+    assert result["images"] == 1 or any(path.name in sentence for sentence in result["warnings"])
+
+
+def test_bad_input_is_found():
+    assert len(SCENES) > 120
+    assert len(PICTURES) >= 10
+
+
+@pytest.mark.parametrize(
+    "name", ["IndexOutOfRange", "RecursiveNodes", "BoxWithInfinites", "badUint", "MissingBin"]
+)
+def test_bad_gltf_is_refused(name):
+    (path,) = (path for path in SCENES if name in str(path))
+    assert not load_apart(path)["loaded"]
