@@ -118,6 +118,12 @@ def test_point_sets_fill_the_square_evenly(count):
             assert np.max(np.abs(counts - 40)) <= 4
 
 
+def test_first_points_of_the_sets():
+    np.testing.assert_allclose(hammersley(4), [[2.0**-24, 0], [0.25, 0.5], [0.5, 0.25], [0.75, 0.75]])
+    golden = (5**0.5 - 1) / 2
+    np.testing.assert_allclose(fibonacci(3), [[1 / 6, 0], [0.5, golden], [5 / 6, 2 * golden - 1]])
+
+
 def test_unknown_point_set_is_refused():
     with pytest.raises(ValueError, match='points: expected "hammersley" or "fibonacci"'):
         point_set("sobol", 4)

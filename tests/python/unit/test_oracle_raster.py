@@ -204,3 +204,16 @@ def test_captured_diffuse_is_irradiance_over_pi():
     wall = cube_object(placed(offset=(0, 4, 0)), Material((0.5, 0.25, 0), [KurtLobe(0.1)]))
     seen = capture([wall], (0, 0, 0), 9, light)[2, 4, 4]
     np.testing.assert_allclose(seen, [1, 0.5, 0], rtol=5e-3)
+
+
+def test_captured_diffuse_follows_the_normal():
+    # Light from above: the top of a block below the point is bright, its shade as `shade` gives it.
+    d = texel_directions(16)
+    light = build_pyramid(1 + 0.9 * d[..., [1, 1, 1]], "box")
+    material = Material((0.5, 0.25, 1))
+    block = cube_object(placed(offset=(0, -4, 0)), material)
+    seen = capture([block], (0, 0, 0), 9, light)[3, 4, 4]
+    np.testing.assert_allclose(
+        seen, shade(light, material, Regular(), [0, 1, 0], [1, 0, 0], [0, 1, 0]), rtol=1e-12
+    )
+    np.testing.assert_allclose(seen, np.array([0.5, 0.25, 1]) * (1 + 0.6), rtol=5e-3)
