@@ -10,21 +10,21 @@
 layout(local_size_x = 64) in;
 
 // Exact in floats: coordinates of texel centres are multiples of 1/size, a power of two.
-uvec2 load_folded(int begin, int size, int layer, int x, int y) {
+uvec2 load_folded(Level level, int layer, int x, int y) {
     int face = layer % 6;
-    vec2 at = vec2(2 * x + 1, 2 * y + 1) / float(size) - 1.0;
+    vec2 at = vec2(2 * x + 1, 2 * y + 1) / float(level.size) - 1.0;
     vec3 axis = cube_direction(uint(face), 0.0, 0.0);
     vec3 place = cube_direction(uint(face), at.x, at.y);
     float outside = max(max(abs(at.x), abs(at.y)) - 1.0, 0.0);
     vec2 uv;
     int source_face = int(cube_face_uv(clamp(place, -1.0, 1.0) - outside * axis, uv));
-    ivec2 source = ivec2((uv + 1.0) * (0.5 * float(size)));
-    return load_texel(begin, size, layer - face + source_face, source.x, source.y);
+    ivec2 source = ivec2((uv + 1.0) * (0.5 * float(level.size)));
+    return load_texel(level, layer - face + source_face, source.x, source.y);
 }
 
 void main() {
-    int begin = int(record.source_begin);
-    int size = int(record.source_size);
+    Level level = source_level();
+    int size = level.size;
     int layer = int(gl_GlobalInvocationID.z);
     int index = int(gl_GlobalInvocationID.x);
     if (index >= 4 * size + 8) return;
@@ -46,6 +46,6 @@ void main() {
         x = 2 * (along % half_size);
         y = side == 2 ? -1 - along / half_size : size + along / half_size;
     }
-    uvec4 pair = uvec4(load_folded(begin, size, layer, x, y), load_folded(begin, size, layer, x + 1, y));
-    imageStore(texels, pair_index(begin, size, layer, x, y), is_corner ? uvec4(0u) : pair);
+    uvec4 pair = uvec4(load_folded(level, layer, x, y), load_folded(level, layer, x + 1, y));
+    imageStore(texels, pair_index(level, layer, x, y), is_corner ? uvec4(0u) : pair);
 }

@@ -8,13 +8,13 @@
 #include "pyramid/texels.glsl"
 
 layout(constant_id = SPEC_PYRAMID_TAPS) const int TAPS = 6;
-layout(constant_id = SPEC_PYRAMID_BLOCK_X) const int BLOCK_X = 2;
-layout(constant_id = SPEC_PYRAMID_BLOCK_Y) const int BLOCK_Y = 4;
 layout(local_size_x_id = SPEC_PYRAMID_LOCAL_X, local_size_y_id = SPEC_PYRAMID_LOCAL_Y) in;
 
 // Tap k of texel i reads 2 i + k - REACH.
 const int REACH = TAPS / 2 - 1;
 const int BORDER = int(PYRAMID_BORDER);
+const int BLOCK_X = int(PYRAMID_BLOCK_X);
+const int BLOCK_Y = int(PYRAMID_BLOCK_Y);
 
 // [1 1]/2, [1 3 3 1]/8, [1 5 10 10 5 1]/32: dyadic, so a constant map stays constant to the last bit.
 float weight(int tap) {
@@ -25,33 +25,33 @@ float weight(int tap) {
 }
 
 void main() {
-    int size = int(record.source_size) / 2;
+    Level source = source_level();
+    Level target = target_level();
+    int size = target.size;
     int layer = int(gl_GlobalInvocationID.z);
     ivec2 first = ivec2(gl_GlobalInvocationID.xy) * ivec2(BLOCK_X, BLOCK_Y);
     if (first.x >= size || first.y >= size) return;
 
-    int begin = int(record.source_begin);
-    int pitch = row_pairs(2 * size);
-    vec4 sum[PYRAMID_MAX_BLOCK];
-    [[unroll]] for (int k = 0; k < int(PYRAMID_MAX_BLOCK); ++k) sum[k] = vec4(0.0);
+    vec4 sum[BLOCK_X * BLOCK_Y];
+    [[unroll]] for (int k = 0; k < BLOCK_X * BLOCK_Y; ++k) sum[k] = vec4(0.0);
 
     // The box filter has no taps in the border: it starts one pair later and loads two pairs less.
     const int first_pair = TAPS == 2 ? 1 : 0;
     const int end_pair = BLOCK_X + (TAPS == 2 ? 1 : 2);
-    int row_begin = pair_index(begin, 2 * size, layer, 2 * first.x - BORDER, 2 * first.y - REACH);
+    int row_begin = pair_index(source, layer, 2 * first.x - BORDER, 2 * first.y - REACH);
     [[unroll]] for (int row = 0; row < 2 * BLOCK_Y + TAPS - 2; ++row) {
-        vec4 source[12];
+        vec4 taps[2 * (BLOCK_X + 2)];
         [[unroll]] for (int k = first_pair; k < end_pair; ++k) {
-            uvec4 pair = imageLoad(texels, row_begin + row * pitch + k);
-            source[2 * k] = unpack_texel(pair.xy);
-            source[2 * k + 1] = unpack_texel(pair.zw);
+            uvec4 pair = imageLoad(texels, row_begin + row * source.pitch + k);
+            taps[2 * k] = unpack_texel(pair.xy);
+            taps[2 * k + 1] = unpack_texel(pair.zw);
         }
         [[unroll]] for (int x = 0; x < BLOCK_X; ++x) {
             vec4 along_x = vec4(0.0);
             [[unroll]] for (int tap = 0; tap < TAPS / 2; ++tap) {
                 int left = 2 * x + BORDER - REACH + tap;
                 int right = 2 * x + BORDER - REACH + TAPS - 1 - tap;
-                along_x += weight(tap) * (source[left] + source[right]);
+                along_x += weight(tap) * (taps[left] + taps[right]);
             }
             [[unroll]] for (int y = 0; y < BLOCK_Y; ++y) {
                 int tap = row - 2 * y;
@@ -70,14 +70,13 @@ void main() {
         int j = k / 4 / max(REACH, 1);
         bool is_right = (k & 1) != 0;
         bool is_below = (k & 2) != 0;
-        int edge = 2 * size;
-        uvec2 beside = load_texel(begin, edge, layer, is_right ? edge + j : -1 - j, is_below ? edge - 1 - i : i);
-        uvec2 above = load_texel(begin, edge, layer, is_right ? edge - 1 - j : j, is_below ? edge + i : -1 - i);
+        uvec2 beside = load_texel(source, layer, is_right ? source.size + j : -1 - j, is_below ? source.size - 1 - i : i);
+        uvec2 above = load_texel(source, layer, is_right ? source.size - 1 - j : j, is_below ? source.size + i : -1 - i);
         vec4 term = 0.5 * weight(REACH - 1 - i) * weight(REACH - 1 - j) * (unpack_texel(beside) + unpack_texel(above));
-        ivec2 target = ivec2(is_right ? size - 1 : 0, is_below ? size - 1 : 0) - first;
+        ivec2 place = ivec2(is_right ? size - 1 : 0, is_below ? size - 1 : 0) - first;
         [[unroll]] for (int y = 0; y < BLOCK_Y; ++y) {
             [[unroll]] for (int x = 0; x < BLOCK_X; ++x) {
-                if (target == ivec2(x, y)) sum[y * BLOCK_X + x] += term;
+                if (place == ivec2(x, y)) sum[y * BLOCK_X + x] += term;
             }
         }
     }
@@ -86,7 +85,7 @@ void main() {
         [[unroll]] for (int x = 0; x < BLOCK_X; x += 2) {
             if (first.x + x < size && first.y + y < size) {
                 uvec4 pair = uvec4(pack_texel(sum[y * BLOCK_X + x]), pack_texel(sum[y * BLOCK_X + x + 1]));
-                imageStore(texels, pair_index(int(record.target_begin), size, layer, first.x + x, first.y + y), pair);
+                imageStore(texels, pair_index(target, layer, first.x + x, first.y + y), pair);
             }
         }
     }

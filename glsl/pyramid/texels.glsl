@@ -7,17 +7,23 @@
 layout(binding = BINDING_PYRAMID_TEXELS, rgba32ui) uniform uimageBuffer texels;
 layout(push_constant) uniform Push { PyramidRecord record; };
 
-// Pairs in a row of a face with `size` texels along its edge.
-int row_pairs(int size) { return (size + 2 * int(PYRAMID_BORDER) + 1) / 2; }
+struct Level {
+    int begin; // in pairs, as the pitch
+    int pitch;
+    int size; // texels along an edge
+};
+
+Level source_level() { return Level(int(record.source_begin), int(record.source_pitch), int(record.source_size)); }
+Level target_level() { return Level(int(record.target_begin), int(record.target_pitch), int(record.source_size) / 2); }
 
 // The pair that holds texel (x, y) of a layer; x and y may lie in the border.
-int pair_index(int begin, int size, int layer, int x, int y) {
+int pair_index(Level level, int layer, int x, int y) {
     int border = int(PYRAMID_BORDER);
-    return begin + (layer * (size + 2 * border) + y + border) * row_pairs(size) + ((x + border) >> 1);
+    return level.begin + (layer * (level.size + 2 * border) + y + border) * level.pitch + ((x + border) >> 1);
 }
 
-uvec2 load_texel(int begin, int size, int layer, int x, int y) {
-    uvec4 pair = imageLoad(texels, pair_index(begin, size, layer, x, y));
+uvec2 load_texel(Level level, int layer, int x, int y) {
+    uvec4 pair = imageLoad(texels, pair_index(level, layer, x, y));
     return (x & 1) == 0 ? pair.xy : pair.zw;
 }
 

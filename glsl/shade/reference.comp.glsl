@@ -42,7 +42,7 @@ vec3 half_vector(vec3 a, vec3 b) {
 vec3 quadrature(LobeView v, uint face_size) {
     vec3 sum = vec3(0.0);
     uint face_texels = face_size * face_size;
-    for (uint texel = push.texel_begin; texel < push.texel_end; ++texel) {
+    for (uint texel = push.texel_begin; texel < min(push.texel_end, 6u * face_texels); ++texel) {
         uint in_face = texel % face_texels;
         vec2 uv = (2.0 * vec2(in_face % face_size, in_face / face_size) + 1.0) / float(face_size) - 1.0;
         vec3 w = cube_direction(texel / face_texels, uv.x, uv.y);
@@ -54,43 +54,46 @@ vec3 quadrature(LobeView v, uint face_size) {
 }
 
 // Density of `draw_texel` per solid angle in direction w.
-float texel_pdf(vec3 w, uint face_size) {
+float texel_pdf(vec3 w, MapRecord map) {
+    uint face_size = map.face_size;
     vec2 uv;
     uint face = cube_face_uv(w, uv);
     uvec2 texel = min(uvec2(max((uv * 0.5 + 0.5) * float(face_size), vec2(0.0))), uvec2(face_size - 1u));
     float face_texels = float(face_size * face_size);
-    return texel_alias[(face * face_size + texel.y) * face_size + texel.x].probability / texel_solid_angle(face_texels, w);
+    return texel_alias[map.alias_begin + (face * face_size + texel.y) * face_size + texel.x].probability / texel_solid_angle(face_texels, w);
 }
 
 // A direction in proportion to the map's light: a texel by its alias table, a place in it at random.
-vec3 draw_texel(vec3 x, uint face_size) {
+vec3 draw_texel(vec3 x, MapRecord map) {
+    uint face_size = map.face_size;
     uint count = 6u * face_size * face_size;
     float scaled = x.x * float(count);
     uint texel = min(uint(scaled), count - 1u);
     // The fraction left of one float has few bits for large maps: mix in bits of the place, which are independent of it.
     float fraction = fract(x.x * 4096.0 + x.y * 1024.0 + x.z);
-    if (fraction >= texel_alias[texel].threshold) texel = texel_alias[texel].alias;
+    TexelAlias drawn = texel_alias[map.alias_begin + texel];
+    if (fraction >= drawn.threshold) texel = drawn.alias;
     uint in_face = texel % (face_size * face_size);
     vec2 uv = 2.0 * (vec2(in_face % face_size, in_face / face_size) + x.yz) / float(face_size) - 1.0;
     return normalize(cube_direction(texel / (face_size * face_size), uv.x, uv.y));
 }
 
-vec3 weigh(LobeView v, vec3 direction, vec3 local_i, vec3 h, uint face_size) {
+vec3 weigh(LobeView v, vec3 direction, vec3 local_i, vec3 h, MapRecord map) {
     vec3 value = lobe_value(v, local_i, h);
-    float pdf = kurt_pdf(h, dot(v.local_o, h), v.lobe.roughness) + texel_pdf(direction, face_size);
+    float pdf = kurt_pdf(h, dot(v.local_o, h), v.lobe.roughness) + texel_pdf(direction, map);
     return value * textureLod(maps, vec4(direction, v.layer), 0.0).rgb / max(pdf, 1e-20);
 }
 
-vec3 progressive(LobeView v, uint face_size, uint seed) {
+vec3 progressive(LobeView v, MapRecord map, uint seed) {
     vec3 sum = vec3(0.0);
     for (uint k = 0u; k < push.batch_size; ++k) {
         vec3 h = sample_kurt(recurrence_2d(k, seed), v.lobe.roughness);
         vec3 local_i = 2.0 * dot(v.local_o, h) * h - v.local_o;
         vec3 term = vec3(0.0);
-        if (dot(v.local_o, h) > 0.0 && local_i.z > 0.0) term = weigh(v, v.frame * local_i, local_i, h, face_size);
-        vec3 direction = draw_texel(recurrence_3d(k, seed), face_size);
+        if (dot(v.local_o, h) > 0.0 && local_i.z > 0.0) term = weigh(v, v.frame * local_i, local_i, h, map);
+        vec3 direction = draw_texel(recurrence_3d(k, seed), map);
         local_i = direction * v.frame;
-        if (local_i.z > 0.0) term += weigh(v, direction, local_i, half_vector(local_i, v.local_o), face_size);
+        if (local_i.z > 0.0) term += weigh(v, direction, local_i, half_vector(local_i, v.local_o), map);
         sum += term;
     }
     return sum / float(push.batch_size);
@@ -115,7 +118,7 @@ void main() {
         v.alpha = record.alpha;
         v.layer = float(map.layer);
         uint seed = hash_uint(point.index * 4u + which) ^ hash_uint(push.batch + 0x51633e2du);
-        batch += IS_QUADRATURE ? quadrature(v, map.face_size) : progressive(v, map.face_size, seed);
+        batch += IS_QUADRATURE ? quadrature(v, map.face_size) : progressive(v, map, seed);
     }
     if (!point.is_mine) return;
     if (!is_finite(batch)) {

@@ -41,7 +41,7 @@ struct MapRecord {
     float radiance_scale; // 2^exposure
     uint layer;           // cube in its array
     uint face_size;       // texels
-    uint pad0;
+    uint alias_begin;     // first entry of its TexelAlias table
 };
 SHARED_SIZE(MapRecord, 208)
 

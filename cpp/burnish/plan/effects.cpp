@@ -154,7 +154,7 @@ void add_pass_lines(Plan& plan) {
                                          [](const ShadeClass& one) { return one.traits.lobe_count > 0; });
     const bool is_reference = std::holds_alternative<Reference>(plan.settings.sampler);
     if (has_lookups && !is_reference)
-        add("pyramid", message(name_of(plan.settings.filter), " levels of ", plan.environments.size(),
+        add("pyramid", message(pyramid_filter_name(plan.settings.filter), " levels of ", plan.environments.size(),
                                plan.environments.size() == 1 ? " map" : " maps", ", once per map"));
     add("surface", plan.has_varying ? "rasterises into the wide G-buffer: textures or vertex colours vary over a surface"
                                     : "rasterises into 8 bytes a pixel and depth");

@@ -151,15 +151,6 @@ void add_classes(const Scene& scene, Plan& plan) {
 
 } // namespace
 
-const char* name_of(PyramidFilter filter) {
-    switch (filter) {
-    case PyramidFilter::box: return "box";
-    case PyramidFilter::gauss4: return "gauss4";
-    case PyramidFilter::gauss6: return "gauss6";
-    }
-    return "";
-}
-
 Plan make_plan(const Scene& scene, const PlanSettings& settings) {
     validate(settings.sampler);
     if (settings.spp < 1 || settings.spp > 65536) throw std::invalid_argument(message("spp: expected 1..65536, got ", settings.spp));

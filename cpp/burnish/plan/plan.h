@@ -6,12 +6,11 @@
 #include <string>
 #include <vector>
 
+#include "burnish/sampling/pyramid_filter.h"
 #include "burnish/sampling/sampler.h"
 #include "burnish/scene/scene.h"
 
 namespace burnish {
-
-enum class PyramidFilter { box, gauss4, gauss6 };
 
 struct PlanSettings {
     Sampler sampler = Regular{};
@@ -95,7 +94,5 @@ constexpr size_t MAX_CONSTANT_CLASSES = 6;
 
 /// Chooses passes and shader variants. Throws std::invalid_argument for settings out of range.
 Plan make_plan(const Scene& scene, const PlanSettings& settings);
-
-const char* name_of(PyramidFilter filter);
 
 } // namespace burnish

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "burnish/error.h"
 #include "burnish/render/octahedral.h"
 #include "burnish/render/view.h"
 
@@ -20,6 +21,34 @@ std::vector<glm::vec3> Frame::normals() const {
         return has_surface ? octahedral_decode(glm::unpackSnorm2x16(packed.x)) : glm::vec3(0.0f);
     });
     return result;
+}
+
+std::vector<std::string> effect_names(const ShadeTraits& traits) {
+    std::vector<std::string> names;
+    const auto add = [&](bool is_on, std::string name) {
+        if (is_on) names.push_back(std::move(name));
+    };
+    add(traits.lobe_count > 0, traits.lobe_count == 1 ? "1 lobe" : message(traits.lobe_count, " lobes"));
+    add(traits.has_fresnel, "fresnel");
+    add(traits.alpha == AlphaForm::half, "alpha .5");
+    add(traits.alpha == AlphaForm::general, "alpha");
+    add(traits.has_tangent, "anisotropy");
+    add(traits.has_diffuse, "diffuse");
+    add(traits.has_emissive, "emissive");
+    add(traits.has_varying, "textures");
+    add(traits.has_coat, "clear coat");
+    add(traits.has_map_rotation, "map rotation");
+    return names;
+}
+
+const char* table_name(TableForm form) {
+    switch (form) {
+    case TableForm::none: return "none";
+    case TableForm::constant: return "constant";
+    case TableForm::buffer: return "buffer";
+    case TableForm::scaled: return "scaled";
+    }
+    return "";
 }
 
 void add_pass_times(std::vector<vulkan::PassTime>& total, const std::vector<vulkan::PassTime>& times) {

@@ -53,6 +53,10 @@ struct Frame {
     std::vector<glm::vec3> normals() const;
 };
 
+/// For reports: "1 lobe", "fresnel", ...; and "none", "constant", "buffer", "scaled".
+std::vector<std::string> effect_names(const ShadeTraits& traits);
+const char* table_name(TableForm form);
+
 /// Adds the times of passes of one name to those there are.
 void add_pass_times(std::vector<vulkan::PassTime>& total, const std::vector<vulkan::PassTime>& times);
 

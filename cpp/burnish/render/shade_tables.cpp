@@ -171,6 +171,12 @@ ShadeTables make_shade_tables(const vulkan::DevicePointer& device, const Scene& 
             maps[set.environments[layer]] = map_record(*environment, layer, cache.irradiance(environment));
         }
 
+    uint32_t alias_begin = 0;
+    for (shared::MapRecord& map : maps) {
+        map.alias_begin = alias_begin;
+        alias_begin += 6 * map.face_size * map.face_size;
+    }
+
     ShadeTables tables;
     for (size_t k = 0; k < plan.classes.size(); ++k) {
         const ShadeTraits& traits = plan.classes[k].traits;

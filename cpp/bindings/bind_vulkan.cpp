@@ -1,0 +1,116 @@
+// Devices. A Python Device is a renderer with its device: what one frame leaves behind, the next can use.
+#include <optional>
+
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+
+#include "burnish/render/renderer.h"
+#include "burnish/vulkan/memory.h"
+
+namespace py = pybind11;
+
+namespace burnish {
+namespace {
+
+std::string version_text(uint32_t version) {
+    return std::to_string(VK_API_VERSION_MAJOR(version)) + "." + std::to_string(VK_API_VERSION_MINOR(version)) + "." +
+           std::to_string(VK_API_VERSION_PATCH(version));
+}
+
+py::dict limits_of(const vulkan::Device& device) {
+    const VkPhysicalDeviceLimits& limits = device.limits();
+    py::dict result;
+    result["max_image_dimension_2d"] = limits.maxImageDimension2D;
+    result["max_image_dimension_cube"] = limits.maxImageDimensionCube;
+    result["max_image_array_layers"] = limits.maxImageArrayLayers;
+    result["max_texel_buffer_elements"] = limits.maxTexelBufferElements;
+    result["max_storage_buffer_bytes"] = limits.maxStorageBufferRange;
+    result["max_push_constant_bytes"] = limits.maxPushConstantsSize;
+    result["max_allocation_bytes"] = device.features().max_allocation_bytes;
+    result["timestamp_period_ns"] = device.features().timestamp_period_ns;
+    return result;
+}
+
+py::dict features_of(const vulkan::Device& device) {
+    const vulkan::DeviceFeatures& features = device.features();
+    py::dict result;
+    result["timestamps"] = features.timestamps;
+    result["multiview"] = features.multiview;
+    result["shader_float16"] = features.shader_float16;
+    result["shader_int16"] = features.shader_int16;
+    result["sampler_anisotropy"] = features.sampler_anisotropy;
+    result["subgroup_size"] = features.subgroup_size;
+    result["validation"] = device.validates();
+    return result;
+}
+
+std::shared_ptr<render::Renderer> open_device(const std::string& name, std::optional<bool> validation) {
+    const py::gil_scoped_release release;
+    vulkan::DeviceSettings settings;
+    settings.name = name;
+    if (validation) settings.validation = *validation;
+    return std::make_shared<render::Renderer>(vulkan::Device::create(settings));
+}
+
+} // namespace
+
+void bind_vulkan(py::module_& m) {
+    py::class_<vulkan::DeviceInfo>(m, "DeviceInfo", "A Vulkan device of this machine, usable or not.")
+        .def_readonly("name", &vulkan::DeviceInfo::name, "As the driver gives it.")
+        .def_readonly("driver", &vulkan::DeviceInfo::driver, "Name and version of the driver.")
+        .def_readonly("is_software", &vulkan::DeviceInfo::is_software, "True for a CPU.")
+        .def_property_readonly(
+            "api_version", [](const vulkan::DeviceInfo& info) { return version_text(info.api_version); }, "Vulkan version, \"1.3.230\".")
+        .def_readonly("refusals", &vulkan::DeviceInfo::refusals, "Why it cannot be used, a sentence each; empty = it can.")
+        .def("__repr__", [](const vulkan::DeviceInfo& info) { return "DeviceInfo('" + info.name + "', '" + info.driver + "')"; });
+
+    m.def("list_devices", &vulkan::list_devices, py::call_guard<py::gil_scoped_release>(),
+          "All Vulkan devices, with the reasons why some cannot be used. Raises VulkanError if there is no driver.");
+
+    py::class_<render::Renderer, std::shared_ptr<render::Renderer>>(m, "Device", R"(A Vulkan device, opened.
+
+It keeps pipelines, scenes and maps from frame to frame. Several threads may use it; they wait for each other.
+
+Parameters
+----------
+name : str
+    Part of the device's name, any case, such as "llvmpipe"; "" takes the best: a discrete GPU before an integrated
+    one before a virtual one before a CPU.
+validation : bool or None
+    Validation layer with synchronization validation; its errors are raised. None: the environment variable
+    BURNISH_VALIDATION.
+
+Raises
+------
+VulkanError
+    If no device fits; the message lists every device with the reason.)")
+        .def(py::init(&open_device), py::arg("name") = "", py::arg("validation") = py::none())
+        .def_property_readonly("name", [](const render::Renderer& self) { return self.device()->info().name; }, "As the driver gives it.")
+        .def_property_readonly("driver", [](const render::Renderer& self) { return self.device()->info().driver; },
+                               "Name and version of the driver.")
+        .def_property_readonly("is_software", [](const render::Renderer& self) { return self.device()->info().is_software; },
+                               "True for a CPU.")
+        .def_property_readonly("api_version", [](const render::Renderer& self) { return version_text(self.device()->info().api_version); },
+                               "Vulkan version, \"1.3.230\".")
+        .def_property_readonly("limits", [](const render::Renderer& self) { return limits_of(*self.device()); },
+                               "dict: sizes the device can take.")
+        .def_property_readonly("features", [](const render::Renderer& self) { return features_of(*self.device()); },
+                               "dict: optional abilities.")
+        .def(
+            "memory_statistics",
+            [](const render::Renderer& self) {
+                const vulkan::MemoryStatistics statistics = self.device()->memory_statistics();
+                py::dict result;
+                result["blocks"] = statistics.blocks;
+                result["bytes_reserved"] = statistics.bytes_reserved;
+                result["bytes_used"] = statistics.bytes_used;
+                result["allocations"] = statistics.allocations;
+                return result;
+            },
+            "dict: blocks and bytes taken from the driver, bytes and allocations in use.")
+        .def("validation_messages", [](const render::Renderer& self) { return self.device()->validation_messages(); },
+             "Warnings and errors of the validation layer so far.")
+        .def("__repr__", [](const render::Renderer& self) { return "Device('" + self.device()->info().name + "')"; });
+}
+
+} // namespace burnish

@@ -1,0 +1,66 @@
+#include "burnish/render/capture.h"
+
+#include <bit>
+#include <cmath>
+#include <numbers>
+
+#include "burnish/error.h"
+
+namespace burnish::render {
+namespace {
+
+/// Axes of a face: where its centre lies, and where u and v grow (see scene/environment.h).
+struct FaceAxes {
+    glm::vec3 center, u, v;
+};
+
+FaceAxes face_axes(uint32_t face) {
+    const glm::vec3 center = cube_direction(face, 0.0f, 0.0f);
+    return {center, cube_direction(face, 1.0f, 0.0f) - center, cube_direction(face, 0.0f, 1.0f) - center};
+}
+
+/// A camera sees a face mirrored: cubes are looked at from inside in a left-handed order. So it looks with -u to its right.
+Camera face_camera(const FaceAxes& axes, glm::vec3 point, float near_plane) {
+    Camera camera;
+    camera.world_from_camera = glm::mat4(glm::vec4(-axes.u, 0.0f), glm::vec4(-axes.v, 0.0f), glm::vec4(-axes.center, 0.0f), glm::vec4(point, 1.0f));
+    camera.vertical_fov = std::numbers::pi_v<float> / 2.0f;
+    camera.near_plane = near_plane;
+    return camera;
+}
+
+} // namespace
+
+std::shared_ptr<Environment> capture(Renderer& renderer, const Scene& scene, glm::vec3 point, uint32_t face_size,
+                                     std::optional<uint32_t> without_object) {
+    if (!std::has_single_bit(face_size) || face_size > 2048)
+        throw std::invalid_argument(message("face_size: expected a power of two in 1..2048, got ", face_size));
+    if (!std::isfinite(point.x + point.y + point.z)) throw std::invalid_argument("point: expected finite coordinates");
+    Scene surroundings = scene;
+    if (without_object) {
+        if (*without_object >= scene.objects.size())
+            throw std::invalid_argument(message("object: expected an index below ", scene.objects.size(), ", got ", *without_object));
+        surroundings.objects.erase(surroundings.objects.begin() + *without_object);
+    }
+    surroundings.show_background = true;
+    for (Object& object : surroundings.objects) object.reflects = nullptr; // no lobe is seen, so no map is needed
+
+    RenderSettings settings;
+    settings.width = settings.height = face_size;
+    settings.plan.has_lobes = false;
+    std::vector<float> radiance(size_t(6) * face_size * face_size * 3);
+    const float near_plane = std::max(1e-4f * surroundings.bounds().radius(), 1e-20f);
+    for (uint32_t face = 0; face < 6; ++face) {
+        const Frame frame = renderer.render(surroundings, face_camera(face_axes(face), point, near_plane), settings);
+        for (uint32_t row = 0; row < face_size; ++row)
+            for (uint32_t column = 0; column < face_size; ++column) {
+                const glm::vec4& texel = frame.radiance[size_t(row) * face_size + (face_size - 1 - column)];
+                float* target = &radiance[((size_t(face) * face_size + row) * face_size + column) * 3];
+                for (int c = 0; c < 3; ++c) target[c] = texel[c];
+            }
+    }
+    auto environment = std::make_shared<Environment>(Environment::from_faces(face_size, std::move(radiance)));
+    environment->name = "captured";
+    return environment;
+}
+
+} // namespace burnish::render

@@ -1,0 +1,89 @@
+#include "burnish/render/environment_maps.h"
+
+#include "burnish/error.h"
+#include "burnish/vulkan/transfer.h"
+
+#include <chrono>
+
+#include <glm/gtc/packing.hpp>
+
+namespace burnish {
+
+namespace {
+
+using EnvironmentSpan = std::span<const std::shared_ptr<const Environment>>;
+
+uint32_t common_face_size(EnvironmentSpan environments, uint32_t most_layers) {
+    if (environments.empty() || environments.size() > most_layers / 6) {
+        throw std::invalid_argument(message("environments: expected 1..", most_layers / 6,
+                                            " (an image of the device has ", most_layers, " layers), got ",
+                                            environments.size()));
+    }
+    for (const auto& environment : environments) {
+        if (!environment) throw std::invalid_argument("environments: expected environments, got none at some place");
+        if (environment->face_size() != environments.front()->face_size()) {
+            throw std::invalid_argument(message("environments: expected one face size, got ",
+                                                environments.front()->face_size(), " and ",
+                                                environment->face_size()));
+        }
+    }
+    return environments.front()->face_size();
+}
+
+} // namespace
+
+EnvironmentMaps::EnvironmentMaps(std::shared_ptr<const vulkan::Device> device, Pyramid& pyramid,
+                                 EnvironmentSpan environments, PyramidFilter filter) {
+    const uint32_t face_size = common_face_size(environments, device->limits().maxImageArrayLayers);
+    const auto cube_count = static_cast<uint32_t>(environments.size());
+    vulkan::ImageSettings settings;
+    settings.format = VK_FORMAT_R16G16B16A16_SFLOAT;
+    settings.width = settings.height = face_size;
+    settings.levels = vulkan::full_levels(face_size, face_size);
+    settings.layers = 6 * cube_count;
+    settings.is_cube = true;
+    image_ = vulkan::Image(device, settings);
+
+    const auto start = std::chrono::steady_clock::now();
+    for (uint32_t cube = 0; cube < cube_count; ++cube) {
+        const std::vector<uint16_t> texels = environments[cube]->half_rgba();
+        vulkan::ImageRegion faces;
+        faces.base_layer = 6 * cube;
+        faces.layer_count = 6;
+        vulkan::upload(image_, faces, std::as_bytes(std::span(texels)));
+    }
+    const std::chrono::duration<double, std::milli> upload_time = std::chrono::steady_clock::now() - start;
+
+    vulkan::Commands commands(device);
+    commands.begin_pass("pyramid");
+    pyramid.record(commands, image_, 0, cube_count, filter);
+    commands.end_pass();
+    commands.submit();
+    pass_times_ = {{"upload", upload_time.count()}};
+    pass_times_.insert(pass_times_.end(), commands.pass_times().begin(), commands.pass_times().end());
+}
+
+std::vector<std::vector<float>> EnvironmentMaps::read_levels(uint32_t cube) {
+    if (cube >= count()) {
+        throw std::invalid_argument(message("cube: expected 0..", count() - 1, ", got ", cube));
+    }
+    std::vector<std::vector<float>> levels;
+    for (uint32_t level = 0; level < level_count(); ++level) {
+        vulkan::ImageRegion faces;
+        faces.level = level;
+        faces.base_layer = 6 * cube;
+        faces.layer_count = 6;
+        const size_t texel_count = size_t{6} * image_.level_width(level) * image_.level_width(level);
+        std::vector<glm::u16vec4> texels(texel_count);
+        vulkan::read_back(image_, faces, std::as_writable_bytes(std::span(texels)));
+        std::vector<float> radiance;
+        radiance.reserve(3 * texel_count);
+        for (const glm::u16vec4& texel : texels) {
+            for (int channel = 0; channel < 3; ++channel) radiance.push_back(glm::unpackHalf1x16(texel[channel]));
+        }
+        levels.push_back(std::move(radiance));
+    }
+    return levels;
+}
+
+} // namespace burnish

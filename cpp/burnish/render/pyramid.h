@@ -1,0 +1,67 @@
+// Mip pyramids of cube maps: every level filtered from the one above it, across the edges of the faces.
+#pragma once
+
+#include "burnish/sampling/pyramid_filter.h"
+#include "burnish/vulkan/commands.h"
+#include "burnish/vulkan/device.h"
+
+#include <map>
+#include <memory>
+#include <string>
+
+namespace burnish {
+
+/// Makes all levels below 0 of cubes of a RGBA16F cube array from their level 0.
+///
+/// A level is filtered from the level above as that is stored, summed in float32 and rounded to the nearest half, ties
+/// to even. A tap beyond one edge of a face reads the neighbouring face folded over that edge: as deep inside it as the
+/// tap is outside, at the same place along the edge. A tap beyond two edges, (-1-i, -1-j) seen from a corner, has two
+/// such folds, over the one edge and then the other: it reads the mean of what lies at (-1-j, i) and at (j, -1-i). Reach
+/// is two texels, and the last level that is filtered has two along an edge, so no fold ends outside a face.
+///
+/// Works in a buffer of its own, kept for the next call: faces of half RGBA with a border, 1.4 times the bytes of the
+/// cubes that are done at once (at most about 64 MB, or one cube). Not for several threads at once.
+class Pyramid {
+public:
+    explicit Pyramid(std::shared_ptr<const vulkan::Device> device);
+
+    /// Records the work, between begin_pass and end_pass of the caller if it is to be timed. `cubes` is a cube array of
+    /// RGBA16F with full levels and a level 0 that is not undefined; layers 6 first_cube and on are done. Afterwards it
+    /// is in SHADER_READ_ONLY_OPTIMAL, or still in GENERAL if it was, and all its levels are visible to later commands.
+    /// The pyramid must live until the commands are done. Throws std::invalid_argument naming what does not fit, and
+    /// VulkanError where the device's texel buffers are too small for one such cube.
+    void record(vulkan::Commands& commands, vulkan::Image& cubes, uint32_t first_cube, uint32_t cube_count,
+                PyramidFilter filter);
+
+private:
+    /// Invocations of a workgroup of the reduction.
+    struct Group {
+        uint32_t x, y;
+        auto operator<=>(const Group&) const = default;
+    };
+    static Group best_group(uint32_t size);
+
+    struct Level {
+        uint32_t size;  // texels along an edge
+        uint32_t begin; // in the buffer, in pairs of texels
+    };
+    /// Room for all levels of some cubes.
+    struct Scratch {
+        std::vector<Level> levels;
+        vulkan::Buffer buffer;
+        vulkan::TexelView view;
+        vulkan::DescriptorSet border_set, reduce_set;
+    };
+
+    const vulkan::ComputePipeline& reduction(PyramidFilter filter, const Group& group);
+    const Scratch& scratch(uint32_t face_size, uint32_t cube_count, PyramidFilter filter);
+    void record_levels(vulkan::Commands& commands, const Scratch& scratch, uint32_t cube_count, PyramidFilter filter);
+
+    std::shared_ptr<const vulkan::Device> device_;
+    vulkan::Shader reduce_shader_;
+    vulkan::ComputePipeline border_;
+    std::map<std::pair<PyramidFilter, Group>, vulkan::ComputePipeline> reductions_;
+    std::map<std::pair<uint32_t, uint32_t>, Scratch> scratches_; // by face size and cubes
+};
+
+} // namespace burnish

@@ -1,0 +1,263 @@
+#include "burnish/render/renderer.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "burnish/error.h"
+#include "burnish/render/view.h"
+#include "burnish/vulkan/transfer.h"
+#include "shared/constants.h"
+
+namespace burnish::render {
+namespace {
+
+class Stopwatch {
+public:
+    double milliseconds() const {
+        return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start_).count();
+    }
+
+private:
+    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+template <typename T>
+std::vector<T> read_buffer(const vulkan::Buffer& buffer, size_t count) {
+    std::vector<T> result(count);
+    vulkan::read_back(buffer, std::as_writable_bytes(std::span(result)));
+    return result;
+}
+
+uint64_t read_non_finite(const vulkan::Buffer& counters) { return read_buffer<shared::Counters>(counters, 1)[0].non_finite; }
+
+/// Depth and packed normals, copied before later pictures of the same frame overwrite them.
+void read_surface(FrameTargets& targets, Frame& frame) {
+    frame.raw_depth.resize(size_t(frame.width) * frame.height);
+    frame.surface.resize(frame.raw_depth.size());
+    vulkan::read_back(targets.depth, {}, std::as_writable_bytes(std::span(frame.raw_depth)));
+    vulkan::read_back(targets.surface, {}, std::as_writable_bytes(std::span(frame.surface)));
+}
+
+} // namespace
+
+Renderer::Renderer(std::shared_ptr<vulkan::Device> device)
+    : device_(std::move(device)), pipelines_(device_), pyramid_(device_) {}
+
+std::vector<std::shared_ptr<EnvironmentMaps>> Renderer::prepare_maps(const Plan& plan, std::vector<vulkan::PassTime>& times) {
+    std::erase_if(maps_, [](const CachedMaps& cached) {
+        return std::any_of(cached.environments.begin(), cached.environments.end(), [](const auto& one) { return one.expired(); });
+    });
+    std::vector<std::shared_ptr<EnvironmentMaps>> result;
+    for (const MapSet& set : plan.map_sets) {
+        std::vector<std::shared_ptr<const Environment>> environments;
+        for (const uint32_t k : set.environments) environments.push_back(plan.environments[k]);
+        const auto found = std::find_if(maps_.begin(), maps_.end(), [&](const CachedMaps& cached) {
+            return cached.filter == plan.settings.filter &&
+                   std::equal(cached.environments.begin(), cached.environments.end(), environments.begin(), environments.end(),
+                              [](const auto& one, const auto& other) { return one.lock() == other; });
+        });
+        if (found != maps_.end()) {
+            result.push_back(found->maps);
+            continue;
+        }
+        const auto maps = std::make_shared<EnvironmentMaps>(device_, pyramid_, environments, plan.settings.filter);
+        add_pass_times(times, maps->pass_times());
+        maps_.push_back({{environments.begin(), environments.end()}, plan.settings.filter, maps});
+        result.push_back(maps);
+    }
+    return result;
+}
+
+GpuScene& Renderer::prepare_scene(const Scene& scene) {
+    const uint64_t wanted = fingerprint(scene);
+    if (!scene_ || wanted != scene_fingerprint_) {
+        validate(scene);
+        scene_.reset(); // its memory may be needed for the next
+        scene_ = std::make_unique<GpuScene>(device_, scene);
+        scene_fingerprint_ = wanted;
+    }
+    return *scene_;
+}
+
+FrameTargets& Renderer::prepare_targets(const Plan& plan, uint32_t width, uint32_t height) {
+    const uint32_t classes = uint32_t(plan.classes.size()) + 1;
+    const bool has_sum = plan.settings.spp > 1;
+    if (!targets_ || targets_->width != width || targets_->height != height || targets_->has_varying != plan.has_varying ||
+        targets_classes_ < classes || targets_sum_ != has_sum) {
+        targets_.reset();
+        targets_ = std::make_unique<FrameTargets>(device_, width, height, plan.has_varying, has_sum, classes);
+        targets_classes_ = classes;
+        targets_sum_ = has_sum;
+    }
+    return *targets_;
+}
+
+Report Renderer::start_report(const Scene& scene, const Plan& plan, const ShadeTables& tables) const {
+    Report report;
+    report.device_name = device_->info().name;
+    report.device_driver = device_->info().driver;
+    report.is_software = device_->info().is_software;
+    report.spp = plan.settings.spp;
+    report.filter = pyramid_filter_name(plan.settings.filter);
+    report.sampler = describe(plan.settings.sampler);
+    report.effects = plan.effects;
+    report.warnings = plan.warnings;
+    for (size_t k = 0; k < plan.classes.size(); ++k) {
+        const ShadeClass& one = plan.classes[k];
+        report.classes.push_back({effect_names(one.traits), table_name(one.traits.table), tables.samples_used[k], one.reason});
+    }
+    report.warnings.insert(report.warnings.end(), scene.warnings.begin(), scene.warnings.end());
+    report.ignored_extensions = scene.ignored_extensions;
+    for (const auto& environment : plan.environments) {
+        const std::string sentence = environment->texel_report().sentence();
+        if (!sentence.empty()) report.warnings.push_back("environment " + environment->name + ": " + sentence);
+        for (const std::string& note : environment->notes) report.warnings.push_back("environment " + environment->name + ": " + note);
+    }
+    return report;
+}
+
+Frame Renderer::render(const Scene& scene, const Camera& camera, const RenderSettings& settings) {
+    const std::lock_guard lock(mutex_);
+    const Stopwatch wall;
+    if (settings.width < 1 || settings.height < 1 || settings.width > 16384 || settings.height > 16384)
+        throw std::invalid_argument(message("size: expected 1..16384 pixels each way, got ", settings.height, " x ", settings.width));
+    pipelines_.take_compile_ms();
+    const Plan plan = make_plan(scene, settings.plan);
+    GpuScene& gpu_scene = prepare_scene(scene);
+
+    Frame frame;
+    frame.width = settings.width;
+    frame.height = settings.height;
+    frame.camera = camera;
+    std::vector<vulkan::PassTime> times;
+    const std::vector<std::shared_ptr<EnvironmentMaps>> maps = prepare_maps(plan, times);
+    const ShadeTables tables = make_shade_tables(device_, scene, plan, tables_);
+    FrameTargets& targets = prepare_targets(plan, settings.width, settings.height);
+    frame.report = start_report(scene, plan, tables);
+    frame.report.width = settings.width;
+    frame.report.height = settings.height;
+    frame.report.triangles = gpu_scene.triangle_count();
+
+    const uint64_t pixels = uint64_t(settings.width) * settings.height;
+    const bool is_reference = std::holds_alternative<Reference>(plan.settings.sampler);
+    std::optional<ReferenceBuffers> reference;
+    if (is_reference) reference = make_reference_buffers(scene, plan, pixels);
+    const ShadeInputs inputs{&targets, nullptr, 0, &targets.radiance, &targets.counters};
+    const SurfacePass surface(pipelines_, gpu_scene, scene, plan, targets);
+    const ShadePass shade(pipelines_, plan, tables, maps, inputs, reference ? &*reference : nullptr);
+    const vulkan::ComputePipeline* accumulate = nullptr;
+    vulkan::DescriptorSet accumulate_set;
+    const uint32_t spp = plan.settings.spp;
+    if (spp > 1) {
+        accumulate = &pipelines_.compute("resolve/accumulate.comp");
+        accumulate_set = vulkan::DescriptorSet(*accumulate);
+        accumulate_set.bind(shared::BINDING_ACCUMULATE_SAMPLE, targets.radiance).bind(shared::BINDING_ACCUMULATE_SUM, targets.sum);
+    }
+    frame.report.compile_ms = pipelines_.take_compile_ms();
+    frame.report.prepare_ms = wall.milliseconds() - frame.report.compile_ms;
+
+    for (uint32_t picture = 0; picture < spp; ++picture) {
+        shared::ViewRecord view = make_view(camera, settings.width, settings.height, filter_offset(picture, spp));
+        view.background_map = 0;
+        vulkan::upload(targets.view, std::span<const shared::ViewRecord>(&view, 1));
+        vulkan::Commands commands(device_);
+        if (picture == 0) commands.fill_buffer(targets.counters, 0);
+        if (!plan.has_background) commands.fill_buffer(targets.radiance, 0);
+        commands.barrier();
+        commands.begin_pass("surface");
+        surface.record(commands, targets);
+        commands.barrier();
+        commands.end_pass();
+        shade.record_tiles(commands);
+        if (!is_reference) shade.record_shade(commands, {});
+        shade.record_background(commands);
+        if (accumulate && !is_reference) {
+            const shared::AccumulateRecord push{uint32_t(pixels), picture == 0 ? 1u : 0u, 1.0f / float(spp), 0};
+            const uint32_t groups = uint32_t((pixels + 63) / 64);
+            commands.begin_pass("accumulate");
+            commands.dispatch(*accumulate, accumulate_set, vulkan::push_bytes(push), std::min(groups, shared::GROUPS_PER_ROW),
+                              (groups + shared::GROUPS_PER_ROW - 1) / shared::GROUPS_PER_ROW);
+            commands.barrier();
+            commands.end_pass();
+        }
+        commands.submit();
+        add_pass_times(times, commands.pass_times());
+        if (is_reference) run_reference(plan, shade, *reference, pixels, settings.progress, frame.report);
+        if (picture == 0) read_surface(targets, frame);
+        if (settings.progress && !is_reference) settings.progress((picture + 1.0) / spp, "pictures");
+    }
+    const Stopwatch read_watch;
+    frame.radiance = read_buffer<glm::vec4>(spp > 1 && !is_reference ? targets.sum : targets.radiance, pixels);
+    frame.report.non_finite = read_non_finite(targets.counters);
+    add_pass_times(times, {{"read back", read_watch.milliseconds()}});
+    times.insert(times.end(), frame.report.passes.begin(), frame.report.passes.end());
+    frame.report.passes = std::move(times);
+    if (frame.report.non_finite)
+        frame.report.warnings.push_back(message(frame.report.non_finite, " values were not finite and became black"));
+    frame.report.wall_ms = wall.milliseconds();
+    return frame;
+}
+
+std::vector<glm::vec3> Renderer::shade(const std::shared_ptr<const Environment>& environment, const Material& material,
+                                       const ShadePoints& points, const PlanSettings& settings, Report* report) {
+    const std::lock_guard lock(mutex_);
+    const Stopwatch wall;
+    const size_t count = points.normals.size();
+    if (points.tangents.size() != count || points.views.size() != count)
+        throw std::invalid_argument(message("tangents, views: expected as many as normals, ", count, ", got ", points.tangents.size(),
+                                            " and ", points.views.size()));
+    if (count == 0) return {};
+    if (count > 0xffffffffu / sizeof(shared::SurfacePoint))
+        throw std::invalid_argument(message("normals: expected at most ", 0xffffffffu / sizeof(shared::SurfacePoint), " points, got ", count));
+    pipelines_.take_compile_ms();
+    Scene scene;
+    scene.environment = environment;
+    scene.materials = {material};
+    scene.materials[0].source.reset(); // points carry no texture coordinates: its factors hold everywhere
+    scene.objects.emplace_back();
+    const Plan plan = make_plan(scene, settings);
+    std::vector<vulkan::PassTime> times;
+    const std::vector<std::shared_ptr<EnvironmentMaps>> maps = prepare_maps(plan, times);
+    const ShadeTables tables = make_shade_tables(device_, scene, plan, tables_);
+
+    std::vector<shared::SurfacePoint> records(count);
+    for (size_t k = 0; k < count; ++k)
+        records[k] = {glm::vec4(points.normals[k], 0.0f), glm::vec4(points.tangents[k], 1.0f), glm::vec4(glm::normalize(points.views[k]), 0.0f)};
+    const VkBufferUsageFlags storage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT;
+    const vulkan::Buffer point_buffer = vulkan::make_buffer(device_, std::as_bytes(std::span(records)), storage);
+    const vulkan::Buffer radiance(device_, count * sizeof(glm::vec4), storage);
+    const shared::Counters zero{};
+    const vulkan::Buffer counters = vulkan::make_buffer(device_, std::as_bytes(std::span(&zero, 1)), storage);
+    std::optional<ReferenceBuffers> reference;
+    if (std::holds_alternative<Reference>(plan.settings.sampler)) reference = make_reference_buffers(scene, plan, count);
+    const ShadeInputs inputs{nullptr, &point_buffer, uint32_t(count), &radiance, &counters};
+    const ShadePass shade(pipelines_, plan, tables, maps, inputs, reference ? &*reference : nullptr);
+    Report local = start_report(scene, plan, tables);
+    local.compile_ms = pipelines_.take_compile_ms();
+    if (reference) {
+        run_reference(plan, shade, *reference, count, {}, local);
+    } else {
+        vulkan::Commands commands(device_);
+        shade.record_shade(commands, {});
+        commands.submit();
+        add_pass_times(times, commands.pass_times());
+    }
+    const std::vector<glm::vec4> result = read_buffer<glm::vec4>(radiance, count);
+    local.non_finite = read_non_finite(counters);
+    times.insert(times.end(), local.passes.begin(), local.passes.end());
+    local.passes = std::move(times);
+    local.wall_ms = wall.milliseconds();
+    if (report) *report = std::move(local);
+    return {result.begin(), result.end()};
+}
+
+std::vector<std::vector<float>> Renderer::pyramid(const std::shared_ptr<const Environment>& environment, PyramidFilter filter,
+                                                  std::vector<vulkan::PassTime>* times) {
+    const std::lock_guard lock(mutex_);
+    EnvironmentMaps maps(device_, pyramid_, std::span(&environment, 1), filter);
+    if (times) *times = maps.pass_times();
+    return maps.read_levels(0);
+}
+
+} // namespace burnish::render

@@ -1,0 +1,88 @@
+// Executes plans on one device: whole frames, lists of points, captured maps.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "burnish/render/environment_maps.h"
+#include "burnish/render/frame.h"
+#include "burnish/render/gpu_scene.h"
+#include "burnish/render/pipelines.h"
+#include "burnish/render/pyramid.h"
+#include "burnish/render/shade_pass.h"
+#include "burnish/render/shade_tables.h"
+
+namespace burnish::render {
+
+/// Told how far long work is, 0..1, and in words; throws to stop it.
+using Progress = std::function<void(double fraction, const std::string& text)>;
+
+struct RenderSettings {
+    uint32_t width = 960, height = 540; ///< pixels, 1..16384 each
+    PlanSettings plan;
+    Progress progress;
+};
+
+/// Points to shade from outside, `count` each.
+struct ShadePoints {
+    std::span<const glm::vec3> normals;  ///< unit
+    std::span<const glm::vec3> tangents; ///< not parallel to the normal, else a frame of the engine's choice is used
+    std::span<const glm::vec3> views;    ///< toward the eye; normalised here
+};
+
+/// Keeps what later frames can use again: pipelines, scenes, maps, tables. One call at a time; calls from several threads wait
+/// for each other.
+class Renderer {
+public:
+    explicit Renderer(std::shared_ptr<vulkan::Device> device);
+
+    const std::shared_ptr<vulkan::Device>& device() const { return device_; }
+
+    /// Throws std::invalid_argument for a scene or settings that make no sense, VulkanError if the device fails.
+    Frame render(const Scene& scene, const Camera& camera, const RenderSettings& settings);
+
+    /// Linear radiance at each point; `report` gets what it cost.
+    std::vector<glm::vec3> shade(const std::shared_ptr<const Environment>& environment, const Material& material,
+                                 const ShadePoints& points, const PlanSettings& settings, Report* report = nullptr);
+
+    /// All levels of the map as the lookups see them: 6 n n 3 floats each.
+    std::vector<std::vector<float>> pyramid(const std::shared_ptr<const Environment>& environment, PyramidFilter filter,
+                                            std::vector<vulkan::PassTime>* times = nullptr);
+
+private:
+    struct CachedMaps {
+        std::vector<std::weak_ptr<const Environment>> environments;
+        PyramidFilter filter;
+        std::shared_ptr<EnvironmentMaps> maps;
+    };
+
+    std::vector<std::shared_ptr<EnvironmentMaps>> prepare_maps(const Plan& plan, std::vector<vulkan::PassTime>& times);
+    GpuScene& prepare_scene(const Scene& scene);
+    const vulkan::Buffer& prepare_alias(const std::vector<std::shared_ptr<const Environment>>& environments);
+    FrameTargets& prepare_targets(const Plan& plan, uint32_t width, uint32_t height);
+    ReferenceBuffers make_reference_buffers(const Scene& scene, const Plan& plan, uint64_t points);
+    /// Runs batches until the wanted error is reached; fills error, samples and warnings of the report.
+    void run_reference(const Plan& plan, const ShadePass& pass, const ReferenceBuffers& buffers, uint64_t points, const Progress& progress,
+                       Report& report);
+    Report start_report(const Scene& scene, const Plan& plan, const ShadeTables& tables) const;
+
+    std::shared_ptr<vulkan::Device> device_;
+    std::mutex mutex_;
+    Pipelines pipelines_;
+    Pyramid pyramid_;
+    TableCache tables_;
+    uint64_t scene_fingerprint_ = 0;
+    std::unique_ptr<GpuScene> scene_;
+    std::vector<CachedMaps> maps_;
+    std::unique_ptr<FrameTargets> targets_;
+    uint32_t targets_classes_ = 0;
+    bool targets_sum_ = false;
+    std::vector<std::weak_ptr<const Environment>> alias_environments_;
+    vulkan::Buffer alias_;
+};
+
+} // namespace burnish::render

@@ -1,0 +1,208 @@
+#include "burnish/render/shade_pass.h"
+
+#include <algorithm>
+
+#include "burnish/error.h"
+#include "shared/constants.h"
+
+namespace burnish::render {
+namespace {
+
+uint32_t form_of(AlphaForm form) {
+    switch (form) {
+    case AlphaForm::zero: return shared::ALPHA_ZERO;
+    case AlphaForm::half: return shared::ALPHA_HALF;
+    case AlphaForm::general: return shared::ALPHA_GENERAL;
+    }
+    return shared::ALPHA_GENERAL;
+}
+
+uint32_t table_of(TableForm form, const Sampler& sampler) {
+    switch (form) {
+    case TableForm::constant: return shared::TABLE_CONSTANT;
+    case TableForm::scaled:
+        return std::holds_alternative<Regular>(sampler) ? shared::TABLE_SCALED_REGULAR : shared::TABLE_SCALED_IMPORTANCE;
+    case TableForm::none:
+    case TableForm::buffer: return shared::TABLE_BUFFER;
+    }
+    return shared::TABLE_BUFFER;
+}
+
+uint32_t normalization_of(const Sampler& sampler, TableForm form) {
+    const auto* regular = std::get_if<Regular>(&sampler);
+    if (!regular) return shared::NORMALIZATION_CONSTANT;
+    if (regular->normalization == Normalization::furnace) return shared::NORMALIZATION_FURNACE;
+    if (form != TableForm::scaled) return shared::NORMALIZATION_CONSTANT;
+    return regular->normalization == Normalization::published ? shared::NORMALIZATION_PUBLISHED : shared::NORMALIZATION_PROJECTED;
+}
+
+vulkan::SpecializationConstants common_constants(const ShadeTraits& traits, uint32_t shade_class, bool is_points) {
+    vulkan::SpecializationConstants constants;
+    constants.set(shared::SPEC_SOURCE, is_points ? shared::SOURCE_POINTS : shared::SOURCE_PIXELS)
+        .set(shared::SPEC_LOBE_COUNT, traits.lobe_count)
+        .set(shared::SPEC_HAS_TANGENT, traits.has_tangent)
+        .set(shared::SPEC_HAS_DIFFUSE, traits.has_diffuse)
+        .set(shared::SPEC_HAS_EMISSIVE, traits.has_emissive)
+        .set(shared::SPEC_HAS_VARYING, traits.has_varying)
+        .set(shared::SPEC_HAS_COAT, traits.has_coat)
+        .set(shared::SPEC_HAS_MAP_ROTATION, traits.has_map_rotation)
+        .set(shared::SPEC_SHADE_CLASS, shade_class);
+    return constants;
+}
+
+void add_pattern_constants(vulkan::SpecializationConstants& constants, const ShadeTraits& traits, const Sampler& sampler,
+                           const SampleTable& table) {
+    const auto* regular = std::get_if<Regular>(&sampler);
+    const bool is_published = regular && regular->footprint == Footprint::published;
+    constants.set(shared::SPEC_HAS_FRESNEL, traits.has_fresnel)
+        .set(shared::SPEC_ALPHA, form_of(traits.alpha))
+        .set(shared::SPEC_TABLE, table_of(traits.table, sampler))
+        .set(shared::SPEC_FOOTPRINT, is_published ? shared::FOOTPRINT_PUBLISHED : shared::FOOTPRINT_EXACT)
+        .set(shared::SPEC_NORMALIZATION, normalization_of(sampler, traits.table));
+    if (traits.table != TableForm::constant) return;
+    constants.set(shared::SPEC_SAMPLE_COUNT, uint32_t(table.entries.size()));
+    for (uint32_t k = 0; k < table.entries.size(); ++k)
+        for (uint32_t c = 0; c < 4; ++c) constants.set(shared::SPEC_SAMPLES + 4 * k + c, table.entries[k][int(c)]);
+}
+
+vulkan::Image one_texel(const vulkan::DevicePointer& device, VkFormat format) {
+    vulkan::ImageSettings settings;
+    settings.format = format;
+    settings.usage = VK_IMAGE_USAGE_STORAGE_BIT;
+    vulkan::Image image(device, settings);
+    vulkan::Commands commands(device);
+    commands.transition(image, VK_IMAGE_LAYOUT_GENERAL);
+    commands.submit();
+    return image;
+}
+
+} // namespace
+
+ShadePass::ShadePass(Pipelines& pipelines, const Plan& plan, const ShadeTables& tables,
+                     const std::vector<std::shared_ptr<EnvironmentMaps>>& maps, const ShadeInputs& inputs, const ReferenceBuffers* reference)
+    : tables_(tables), maps_(maps), inputs_(inputs), sampler_(pipelines.device(), {}) {
+    const vulkan::DevicePointer& device = pipelines.device();
+    unused_buffer_ = vulkan::Buffer(device, 256, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
+    unused_surface_ = one_texel(device, VK_FORMAT_R32G32_UINT);
+    unused_varying_ = one_texel(device, VK_FORMAT_R16G16B16A16_SFLOAT);
+
+    const bool is_points = inputs.targets == nullptr;
+    for (uint32_t k = 0; k < plan.classes.size(); ++k) {
+        const ShadeTraits& traits = plan.classes[k].traits;
+        vulkan::SpecializationConstants constants = common_constants(traits, k, is_points);
+        if (reference)
+            constants.set(shared::SPEC_IS_QUADRATURE, reference->is_quadrature);
+        else
+            add_pattern_constants(constants, traits, plan.settings.sampler, tables.class_tables[k]);
+        const std::string shader = reference ? "shade/reference.comp" : "shade/shade.comp";
+        classes_.push_back(make_stage(pipelines, shader, constants, k, traits.map_set, reference));
+        classes_.back().name = message(reference ? "reference " : "shade ", k);
+    }
+    if (is_points) return;
+
+    const uint32_t background_class = uint32_t(plan.classes.size());
+    const uint32_t class_count = background_class + (plan.has_background ? 1 : 0);
+    vulkan::SpecializationConstants tile_constants;
+    tile_constants.set(shared::SPEC_CLASS_COUNT, class_count);
+    vulkan::SpecializationConstants finish_constants = tile_constants;
+    tile_constants.set(shared::SPEC_SHADE_CLASS, background_class);
+    tile_stages_.push_back(make_stage(pipelines, "shade/classify_tiles.comp", tile_constants, 0, 0, nullptr));
+    tile_stages_.push_back(make_stage(pipelines, "shade/finish_tiles.comp", finish_constants, 0, 0, nullptr));
+    if (plan.has_background) {
+        vulkan::SpecializationConstants constants;
+        const bool is_turned = plan.environments[0]->rotation != glm::mat3(1.0f);
+        constants.set(shared::SPEC_SHADE_CLASS, background_class).set(shared::SPEC_HAS_MAP_ROTATION, is_turned);
+        uint32_t map_set = 0;
+        for (uint32_t k = 0; k < plan.map_sets.size(); ++k)
+            if (plan.map_sets[k].face_size == plan.environments[0]->face_size()) map_set = k;
+        background_.push_back(make_stage(pipelines, "shade/background.comp", constants, background_class, map_set, nullptr));
+        background_.back().name = "background";
+    }
+}
+
+ShadePass::Stage ShadePass::make_stage(Pipelines& pipelines, const std::string& shader, const vulkan::SpecializationConstants& constants,
+                                       uint32_t shade_class, uint32_t map_set, const ReferenceBuffers* reference) {
+    const vulkan::ComputePipeline& pipeline = pipelines.compute(shader, constants);
+    Stage stage{shader, &pipeline, vulkan::DescriptorSet(pipeline), shade_class};
+    const auto bind = [&](uint32_t binding, const vulkan::Buffer& buffer) {
+        if (stage.set.has_binding(binding)) stage.set.bind(binding, buffer);
+    };
+    const auto bind_image = [&](uint32_t binding, const vulkan::Image& image) {
+        if (stage.set.has_binding(binding)) stage.set.bind_storage_image(binding, image.level_view(0));
+    };
+    const FrameTargets* targets = inputs_.targets;
+    bind(shared::BINDING_VIEW, targets ? targets->view : unused_buffer_);
+    bind(shared::BINDING_MATERIALS, tables_.materials);
+    bind(shared::BINDING_LOBES, tables_.lobes);
+    bind(shared::BINDING_MAP_RECORDS, tables_.map_records);
+    bind(shared::BINDING_ALBEDO_TABLE, tables_.albedo);
+    bind(shared::BINDING_POINTS, inputs_.points ? *inputs_.points : unused_buffer_);
+    bind(shared::BINDING_TILES, targets ? targets->tiles : unused_buffer_);
+    bind(shared::BINDING_TILE_COUNTS, targets ? targets->tile_counts : unused_buffer_);
+    bind(shared::BINDING_RADIANCE, *inputs_.radiance);
+    bind(shared::BINDING_COUNTERS, *inputs_.counters);
+    bind(shared::BINDING_STATISTICS, reference ? reference->statistics : unused_buffer_);
+    bind(shared::BINDING_TEXEL_ALIAS, reference && reference->alias ? *reference->alias : unused_buffer_);
+    if (stage.set.has_binding(shared::BINDING_SAMPLE_TABLE)) stage.set.bind_texel_buffer(shared::BINDING_SAMPLE_TABLE, tables_.samples_view);
+    if (stage.set.has_binding(shared::BINDING_MAPS))
+        stage.set.bind(shared::BINDING_MAPS, maps_[map_set]->image().view_as(VK_IMAGE_VIEW_TYPE_CUBE_ARRAY), sampler_);
+    const bool has_varying = targets && targets->has_varying;
+    bind_image(shared::BINDING_SURFACE, targets ? targets->surface : unused_surface_);
+    bind_image(shared::BINDING_VARYING_DIFFUSE, has_varying ? targets->varying_diffuse : unused_varying_);
+    bind_image(shared::BINDING_VARYING_SPECULAR, has_varying ? targets->varying_specular : unused_varying_);
+    bind_image(shared::BINDING_VARYING_EMISSIVE, has_varying ? targets->varying_emissive : unused_varying_);
+    bind_image(shared::BINDING_VARYING_COAT, has_varying ? targets->varying_coat : unused_varying_);
+    return stage;
+}
+
+void ShadePass::dispatch(vulkan::Commands& commands, const Stage& stage, shared::ShadeRecord push) const {
+    if (inputs_.targets) {
+        push.tile_capacity = inputs_.targets->tile_capacity;
+        commands.dispatch_indirect(*stage.pipeline, stage.set, vulkan::push_bytes(push), inputs_.targets->tile_counts,
+                                   stage.shade_class * sizeof(glm::uvec4));
+        return;
+    }
+    push.point_count = inputs_.point_count;
+    const uint32_t groups = (inputs_.point_count + shared::TILE_SIZE * shared::TILE_SIZE - 1) / (shared::TILE_SIZE * shared::TILE_SIZE);
+    commands.dispatch(*stage.pipeline, stage.set, vulkan::push_bytes(push), std::min(groups, shared::GROUPS_PER_ROW),
+                      (groups + shared::GROUPS_PER_ROW - 1) / shared::GROUPS_PER_ROW);
+}
+
+void ShadePass::record_tiles(vulkan::Commands& commands) const {
+    FrameTargets& targets = *inputs_.targets;
+    commands.begin_pass("tiles");
+    commands.fill_buffer(targets.tile_counts, 0);
+    commands.transition(targets.surface, VK_IMAGE_LAYOUT_GENERAL);
+    if (targets.has_varying)
+        for (vulkan::Image* image : {&targets.varying_diffuse, &targets.varying_specular, &targets.varying_emissive, &targets.varying_coat})
+            commands.transition(*image, VK_IMAGE_LAYOUT_GENERAL);
+    commands.barrier();
+    shared::ShadeRecord push{};
+    push.tile_capacity = targets.tile_capacity;
+    commands.dispatch(*tile_stages_[0].pipeline, tile_stages_[0].set, vulkan::push_bytes(push),
+                      (targets.width + shared::TILE_SIZE - 1) / shared::TILE_SIZE, (targets.height + shared::TILE_SIZE - 1) / shared::TILE_SIZE);
+    commands.barrier();
+    commands.dispatch(*tile_stages_[1].pipeline, tile_stages_[1].set, {}, 1);
+    commands.barrier();
+    commands.end_pass();
+}
+
+void ShadePass::record_shade(vulkan::Commands& commands, shared::ShadeRecord push) const {
+    for (const Stage& stage : classes_) {
+        commands.begin_pass(stage.name);
+        dispatch(commands, stage, push);
+        commands.end_pass();
+    }
+    commands.barrier();
+}
+
+void ShadePass::record_background(vulkan::Commands& commands) const {
+    for (const Stage& stage : background_) {
+        commands.begin_pass(stage.name);
+        dispatch(commands, stage, {});
+        commands.end_pass();
+    }
+    commands.barrier();
+}
+
+} // namespace burnish::render

@@ -1,0 +1,68 @@
+// Shades surface points: pixels of a G-buffer, or a list of points. One specialised pipeline for each class of the plan.
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "burnish/plan/plan.h"
+#include "burnish/render/environment_maps.h"
+#include "burnish/render/pipelines.h"
+#include "burnish/render/shade_tables.h"
+#include "burnish/render/surface_pass.h"
+#include "burnish/vulkan/commands.h"
+
+namespace burnish::render {
+
+/// What shading reads and writes besides the tables. Without `targets`, points.
+struct ShadeInputs {
+    FrameTargets* targets = nullptr;
+    const vulkan::Buffer* points = nullptr; ///< SurfacePoint each
+    uint32_t point_count = 0;
+    const vulkan::Buffer* radiance = nullptr; ///< vec4 a pixel or point
+    const vulkan::Buffer* counters = nullptr;
+};
+
+/// Buffers that only a reference needs.
+struct ReferenceBuffers {
+    vulkan::Buffer statistics;              ///< vec4 a pixel or point
+    const vulkan::Buffer* alias = nullptr;  ///< TexelAlias tables of all maps, one after the other; progressive only
+    bool is_quadrature = false;
+};
+
+class ShadePass {
+public:
+    /// `maps`: one for each map set of the plan.
+    ShadePass(Pipelines& pipelines, const Plan& plan, const ShadeTables& tables, const std::vector<std::shared_ptr<EnvironmentMaps>>& maps,
+              const ShadeInputs& inputs, const ReferenceBuffers* reference);
+
+    /// Lists the tiles of every class; pixels only.
+    void record_tiles(vulkan::Commands& commands) const;
+    /// One pass for each class, and one for the background. `push` is completed with what the inputs say.
+    void record_shade(vulkan::Commands& commands, shared::ShadeRecord push) const;
+    void record_background(vulkan::Commands& commands) const;
+
+private:
+    struct Stage {
+        std::string name;
+        const vulkan::ComputePipeline* pipeline;
+        vulkan::DescriptorSet set;
+        uint32_t shade_class;
+    };
+
+    Stage make_stage(Pipelines& pipelines, const std::string& shader, const vulkan::SpecializationConstants& constants, uint32_t shade_class,
+                     uint32_t map_set, const ReferenceBuffers* reference);
+    void dispatch(vulkan::Commands& commands, const Stage& stage, shared::ShadeRecord push) const;
+
+    const ShadeTables& tables_;
+    const std::vector<std::shared_ptr<EnvironmentMaps>>& maps_;
+    ShadeInputs inputs_;
+    vulkan::Sampler sampler_;
+    // Bindings of the other source need something behind them.
+    vulkan::Buffer unused_buffer_;
+    vulkan::Image unused_surface_, unused_varying_;
+    std::vector<Stage> classes_;
+    std::vector<Stage> background_;
+    std::vector<Stage> tile_stages_;
+};
+
+} // namespace burnish::render
