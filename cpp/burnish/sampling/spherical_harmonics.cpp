@@ -1,0 +1,74 @@
+#include "burnish/sampling/spherical_harmonics.h"
+
+#include "burnish/sampling/cube_texels.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <thread>
+#include <vector>
+
+namespace burnish {
+
+namespace {
+
+constexpr uint32_t LEAST_THREADED_FACE_SIZE = 256; // below, starting threads costs more than it saves
+using Coefficients = std::array<glm::dvec3, 9>;
+
+/// Integral over the texels of a row of radiance times the monomials 1, y, z, x, xy, yz, z^2, xz, x^2 - y^2 of the
+/// direction: what the harmonics are made of.
+Coefficients integrate_row(const float* radiance, const double* solid_angles, const FaceAxes& face, uint32_t face_size,
+                           uint32_t row) {
+    Coefficients sum{};
+    const glm::dvec3 left = face.axis + ((2.0 * row + 1.0) / face_size - 1.0) * face.down;
+    for (uint32_t column = 0; column < face_size; ++column) {
+        const glm::dvec3 toward = left + ((2.0 * column + 1.0) / face_size - 1.0) * face.right;
+        const glm::dvec3 d = toward / std::sqrt(glm::dot(toward, toward));
+        const std::array<double, 9> monomials{1.0,       d.y,       d.z,       d.x,      d.x * d.y,
+                                              d.y * d.z, d.z * d.z, d.x * d.z, d.x * d.x - d.y * d.y};
+        const float* texel = radiance + 3 * size_t{column};
+        const glm::dvec3 light = solid_angles[column] * glm::dvec3(texel[0], texel[1], texel[2]);
+        for (size_t k = 0; k < 9; ++k) sum[k] += monomials[k] * light;
+    }
+    return sum;
+}
+
+} // namespace
+
+std::array<glm::dvec3, 9> irradiance_over_pi_coefficients(const Environment& environment) {
+    const uint32_t face_size = require_texels(environment);
+    const std::vector<double> solid_angles = texel_solid_angles(face_size);
+    // One sum a row, added up in order: the result does not depend on the number of threads.
+    std::vector<Coefficients> rows(size_t{6} * face_size);
+    const auto integrate = [&](size_t first, size_t step) {
+        for (size_t k = first; k < rows.size(); k += step) {
+            const auto row = static_cast<uint32_t>(k % face_size);
+            rows[k] = integrate_row(environment.radiance().data() + 3 * k * face_size,
+                                    solid_angles.data() + size_t{row} * face_size,
+                                    face_axes(static_cast<uint32_t>(k / face_size)), face_size, row);
+        }
+    };
+    const size_t thread_count =
+        face_size < LEAST_THREADED_FACE_SIZE ? 1 : std::max(1u, std::thread::hardware_concurrency());
+    {
+        std::vector<std::jthread> others;
+        for (size_t k = 1; k < thread_count; ++k) others.emplace_back(integrate, k, thread_count);
+        integrate(0, thread_count);
+    }
+    Coefficients sum{};
+    for (const Coefficients& row : rows) {
+        for (size_t k = 0; k < 9; ++k) sum[k] += row[k];
+    }
+
+    // Normalisation of the harmonics, and the cosine lobe's factors pi, 2 pi/3, pi/4 over pi.
+    constexpr double PI = std::numbers::pi;
+    const double y0 = std::sqrt(1.0 / (4.0 * PI));
+    const double y1 = std::sqrt(3.0 / (4.0 * PI)) * (2.0 / 3.0);
+    const double y2 = std::sqrt(15.0 / (4.0 * PI)) * (1.0 / 4.0);
+    const double y20 = std::sqrt(5.0 / (16.0 * PI)) * (1.0 / 4.0);
+    const glm::dvec3 all = sum[0];
+    return {y0 * all,    y1 * sum[1], y1 * sum[2], y1 * sum[3], y2 * sum[4], y2 * sum[5], y20 * (3.0 * sum[6] - all),
+            y2 * sum[7], y2 / 2.0 * sum[8]};
+}
+
+} // namespace burnish
