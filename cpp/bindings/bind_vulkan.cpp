@@ -102,8 +102,8 @@ VulkanError
                 const vulkan::MemoryStatistics statistics = self.device()->memory_statistics();
                 py::dict result;
                 result["blocks"] = statistics.blocks;
-                result["bytes_reserved"] = statistics.bytes_reserved;
-                result["bytes_used"] = statistics.bytes_used;
+                result["bytes_reserved"] = statistics.reserved_bytes;
+                result["bytes_used"] = statistics.used_bytes;
                 result["allocations"] = statistics.allocations;
                 return result;
             },

@@ -6,6 +6,7 @@
 #include <glm/gtc/packing.hpp>
 
 #include "burnish/render/octahedral.h"
+#include "burnish/vulkan/device.h"
 #include "burnish/vulkan/transfer.h"
 
 namespace burnish::render {

@@ -5,6 +5,7 @@
 #include "burnish/error.h"
 #include "burnish/render/renderer.h"
 #include "burnish/sampling/texel_alias.h"
+#include "burnish/vulkan/device.h"
 #include "burnish/vulkan/transfer.h"
 
 namespace burnish::render {

@@ -6,6 +6,7 @@
 
 #include "burnish/error.h"
 #include "burnish/render/view.h"
+#include "burnish/vulkan/device.h"
 #include "burnish/vulkan/transfer.h"
 #include "shared/constants.h"
 

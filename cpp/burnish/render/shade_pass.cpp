@@ -128,7 +128,7 @@ ShadePass::Stage ShadePass::make_stage(Pipelines& pipelines, const std::string& 
         if (stage.set.has_binding(binding)) stage.set.bind(binding, buffer);
     };
     const auto bind_image = [&](uint32_t binding, const vulkan::Image& image) {
-        if (stage.set.has_binding(binding)) stage.set.bind_storage_image(binding, image.level_view(0));
+        if (stage.set.has_binding(binding)) stage.set.bind_storage_image(binding, image.layer_view(0, 0));
     };
     const FrameTargets* targets = inputs_.targets;
     bind(shared::BINDING_VIEW, targets ? targets->view : unused_buffer_);

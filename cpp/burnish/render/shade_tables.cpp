@@ -5,6 +5,7 @@
 
 #include "burnish/error.h"
 #include "burnish/sampling/spherical_harmonics.h"
+#include "burnish/vulkan/device.h"
 #include "burnish/vulkan/transfer.h"
 #include "shared/constants.h"
 

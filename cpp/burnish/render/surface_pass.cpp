@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "burnish/plan/effects.h"
+#include "burnish/vulkan/device.h"
 #include "burnish/vulkan/transfer.h"
 #include "shared/constants.h"
 
