@@ -20,7 +20,8 @@ uint32_t common_face_size(EnvironmentSpan environments, uint32_t most_layers) {
                                             environments.size()));
     }
     for (const auto& environment : environments) {
-        if (!environment) throw std::invalid_argument("environments: expected environments, got none at some place");
+        if (!environment)
+            throw std::invalid_argument("environments: expected environments, got none at some place");
         if (environment->face_size() != environments.front()->face_size()) {
             throw std::invalid_argument(message("environments: expected one face size, got ",
                                                 environments.front()->face_size(), " and ",
@@ -79,7 +80,8 @@ std::vector<std::vector<float>> EnvironmentMaps::read_levels(uint32_t cube) {
         std::vector<float> radiance;
         radiance.reserve(3 * texel_count);
         for (const glm::u16vec4& texel : texels) {
-            for (int channel = 0; channel < 3; ++channel) radiance.push_back(glm::unpackHalf1x16(texel[channel]));
+            for (int channel = 0; channel < 3; ++channel)
+                radiance.push_back(glm::unpackHalf1x16(texel[channel]));
         }
         levels.push_back(std::move(radiance));
     }

@@ -16,31 +16,42 @@ namespace {
 constexpr uint64_t SCRATCH_PAIRS = (uint64_t{64} << 20) / 16; // cubes are done together up to this size
 constexpr uint32_t PAIR_BYTES = 16;
 constexpr uint32_t TEXEL_BYTES = 8;
-// Invocations beyond a level's edge load texels behind their face, though they store nothing: room behind the last one.
+// Invocations beyond a level's edge load texels behind their face, though they store nothing: room behind the
+// last one.
 constexpr uint64_t SLACK_PAIRS = 64;
 
 uint32_t tap_count(PyramidFilter filter) {
     return filter == PyramidFilter::box ? 2 : filter == PyramidFilter::gauss4 ? 4 : 6;
 }
 
-uint32_t row_pairs(uint32_t size) { return (size + 2 * shared::PYRAMID_BORDER + 1) / 2; }
-uint32_t face_rows(uint32_t size) { return size + 2 * shared::PYRAMID_BORDER; }
-uint64_t face_pairs(uint32_t size) { return uint64_t{row_pairs(size)} * face_rows(size); }
+uint32_t row_pairs(uint32_t size) {
+    return (size + 2 * shared::PYRAMID_BORDER + 1) / 2;
+}
+uint32_t face_rows(uint32_t size) {
+    return size + 2 * shared::PYRAMID_BORDER;
+}
+uint64_t face_pairs(uint32_t size) {
+    return uint64_t{row_pairs(size)} * face_rows(size);
+}
 
 uint64_t scratch_pairs(uint32_t face_size, uint32_t cube_count) {
     uint64_t pairs = SLACK_PAIRS;
-    for (uint32_t size = face_size; size >= 1; size /= 2) pairs += 6 * cube_count * face_pairs(size);
+    for (uint32_t size = face_size; size >= 1; size /= 2)
+        pairs += 6 * cube_count * face_pairs(size);
     return pairs;
 }
 
-uint32_t groups(uint32_t items, uint32_t per_group) { return (items + per_group - 1) / per_group; }
+uint32_t groups(uint32_t items, uint32_t per_group) {
+    return (items + per_group - 1) / per_group;
+}
 
 /// Level `level` of `cube_count` cubes in the image, and without their borders in the buffer.
 VkBufferImageCopy level_copy(uint32_t level, uint32_t size, uint64_t begin_pairs, uint32_t first_cube,
                              uint32_t cube_count) {
     const uint32_t border = shared::PYRAMID_BORDER;
     VkBufferImageCopy copy{};
-    copy.bufferOffset = begin_pairs * PAIR_BYTES + uint64_t{border} * (row_pairs(size) * PAIR_BYTES + TEXEL_BYTES);
+    copy.bufferOffset =
+        begin_pairs * PAIR_BYTES + uint64_t{border} * (row_pairs(size) * PAIR_BYTES + TEXEL_BYTES);
     copy.bufferRowLength = 2 * row_pairs(size);
     copy.bufferImageHeight = face_rows(size);
     copy.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, level, 6 * first_cube, 6 * cube_count};
@@ -53,17 +64,19 @@ void require_cubes(const vulkan::Image& cubes, uint32_t first_cube, uint32_t cub
     if (settings.format != VK_FORMAT_R16G16B16A16_SFLOAT || !settings.is_cube ||
         !std::has_single_bit(settings.width) ||
         settings.levels != vulkan::full_levels(settings.width, settings.height)) {
-        throw std::invalid_argument(message(
-            "cubes: expected a cube array of RGBA16F, a power of two wide, with all levels, got ",
-            settings.is_cube ? "cubes" : "no cubes", " of ", vulkan::format_name(settings.format), ", ",
-            settings.width, " x ", settings.height, ", ", settings.levels, " levels"));
+        throw std::invalid_argument(
+            message("cubes: expected a cube array of RGBA16F, a power of two wide, with all levels, got ",
+                    settings.is_cube ? "cubes" : "no cubes", " of ", vulkan::format_name(settings.format),
+                    ", ", settings.width, " x ", settings.height, ", ", settings.levels, " levels"));
     }
     if (cube_count == 0 || uint64_t{first_cube} + cube_count > settings.layers / 6) {
-        throw std::invalid_argument(message("cube_count: expected 1 or more of the image's ", settings.layers / 6,
-                                            " cubes, got ", cube_count, " from cube ", first_cube));
+        throw std::invalid_argument(message("cube_count: expected 1 or more of the image's ",
+                                            settings.layers / 6, " cubes, got ", cube_count, " from cube ",
+                                            first_cube));
     }
     if (cubes.layout() == VK_IMAGE_LAYOUT_UNDEFINED) {
-        throw std::invalid_argument("cubes: expected an image with level 0 written, got one in layout UNDEFINED");
+        throw std::invalid_argument(
+            "cubes: expected an image with level 0 written, got one in layout UNDEFINED");
     }
 }
 
@@ -74,7 +87,9 @@ Pyramid::Pyramid(std::shared_ptr<const vulkan::Device> device)
       border_(device_, vulkan::Shader(device_, "pyramid/border.comp", pyramid_border_comp_spv)) {}
 
 // Long rows are read as streams; of small levels a large group would be mostly idle.
-Pyramid::Group Pyramid::best_group(uint32_t size) { return size >= 64 ? Group{32, 1} : Group{8, 2}; }
+Pyramid::Group Pyramid::best_group(uint32_t size) {
+    return size >= 64 ? Group{32, 1} : Group{8, 2};
+}
 
 const vulkan::ComputePipeline& Pyramid::reduction(PyramidFilter filter, const Group& group) {
     const auto key = std::pair(filter, group);
@@ -84,7 +99,8 @@ const vulkan::ComputePipeline& Pyramid::reduction(PyramidFilter filter, const Gr
                                .set(shared::SPEC_PYRAMID_TAPS, tap_count(filter))
                                .set(shared::SPEC_PYRAMID_LOCAL_X, group.x)
                                .set(shared::SPEC_PYRAMID_LOCAL_Y, group.y);
-    return reductions_.emplace(key, vulkan::ComputePipeline(device_, reduce_shader_, constants)).first->second;
+    return reductions_.emplace(key, vulkan::ComputePipeline(device_, reduce_shader_, constants))
+        .first->second;
 }
 
 const Pyramid::Scratch& Pyramid::scratch(uint32_t face_size, uint32_t cube_count, PyramidFilter filter) {
@@ -95,8 +111,9 @@ const Pyramid::Scratch& Pyramid::scratch(uint32_t face_size, uint32_t cube_count
     const uint64_t pairs = scratch_pairs(face_size, cube_count);
     if (pairs > device_->limits().maxTexelBufferElements) {
         throw VulkanError(message("face_size: expected cubes that fit into a texel buffer of ",
-                                  device_->limits().maxTexelBufferElements, " elements (the device's limit), got ",
-                                  face_size, ", which needs ", pairs));
+                                  device_->limits().maxTexelBufferElements,
+                                  " elements (the device's limit), got ", face_size, ", which needs ",
+                                  pairs));
     }
     Scratch scratch;
     uint64_t begin = 0;
@@ -133,8 +150,8 @@ void Pyramid::record_levels(vulkan::Commands& commands, const Scratch& scratch, 
     }
 }
 
-void Pyramid::record(vulkan::Commands& commands, vulkan::Image& cubes, uint32_t first_cube, uint32_t cube_count,
-                     PyramidFilter filter) {
+void Pyramid::record(vulkan::Commands& commands, vulkan::Image& cubes, uint32_t first_cube,
+                     uint32_t cube_count, PyramidFilter filter) {
     require_cubes(cubes, first_cube, cube_count);
     const uint32_t face_size = cubes.settings().width;
     const bool is_general = cubes.layout() == VK_IMAGE_LAYOUT_GENERAL;
@@ -144,22 +161,25 @@ void Pyramid::record(vulkan::Commands& commands, vulkan::Image& cubes, uint32_t 
     const uint64_t most_pairs = std::min<uint64_t>(SCRATCH_PAIRS, device_->limits().maxTexelBufferElements);
     // Powers of two, so that few sizes of scratch arise.
     uint32_t batch = std::bit_floor(cube_count);
-    while (batch > 1 && scratch_pairs(face_size, batch) > most_pairs) batch /= 2;
+    while (batch > 1 && scratch_pairs(face_size, batch) > most_pairs)
+        batch /= 2;
 
     for (uint32_t done = 0; done < cube_count && face_size > 1; done += batch) {
-        while (batch > cube_count - done) batch /= 2;
+        while (batch > cube_count - done)
+            batch /= 2;
         const Scratch& room = scratch(face_size, batch, filter);
         move_to(VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL);
         const VkBufferImageCopy finest = level_copy(0, face_size, 0, first_cube + done, batch);
-        vkCmdCopyImageToBuffer(commands.handle(), cubes.handle(), cubes.layout(), room.buffer.handle(), 1, &finest);
+        vkCmdCopyImageToBuffer(commands.handle(), cubes.handle(), cubes.layout(), room.buffer.handle(), 1,
+                               &finest);
         commands.barrier();
         record_levels(commands, room, batch, filter);
 
         move_to(VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL);
         std::vector<VkBufferImageCopy> copies;
         for (uint32_t level = 1; level < room.levels.size(); ++level) {
-            copies.push_back(level_copy(level, room.levels[level].size, room.levels[level].begin, first_cube + done,
-                                        batch));
+            copies.push_back(level_copy(level, room.levels[level].size, room.levels[level].begin,
+                                        first_cube + done, batch));
         }
         vkCmdCopyBufferToImage(commands.handle(), room.buffer.handle(), cubes.handle(), cubes.layout(),
                                static_cast<uint32_t>(copies.size()), copies.data());

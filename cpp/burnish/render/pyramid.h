@@ -13,23 +13,26 @@ namespace burnish {
 
 /// Makes all levels below 0 of cubes of a RGBA16F cube array from their level 0.
 ///
-/// A level is filtered from the level above as that is stored, summed in float32 and rounded to the nearest half, ties
-/// to even. A tap beyond one edge of a face reads the neighbouring face folded over that edge: as deep inside it as the
-/// tap is outside, at the same place along the edge. A tap beyond two edges, (-1-i, -1-j) seen from a corner, has two
-/// such folds, over the one edge and then the other: it reads the mean of what lies at (-1-j, i) and at (j, -1-i). Reach
-/// is two texels, and the last level that is filtered has two along an edge, so no fold ends outside a face.
+/// A level is filtered from the level above as that is stored, summed in float32 and rounded to the nearest
+/// half, ties to even. A tap beyond one edge of a face reads the neighbouring face folded over that edge: as
+/// deep inside it as the tap is outside, at the same place along the edge. A tap beyond two edges, (-1-i,
+/// -1-j) seen from a corner, has two such folds, over the one edge and then the other: it reads the mean of
+/// what lies at (-1-j, i) and at (j, -1-i). Reach is two texels, and the last level that is filtered has two
+/// along an edge, so no fold ends outside a face.
 ///
-/// Works in a buffer of its own, kept for the next call: faces of half RGBA with a border, 1.4 times the bytes of the
-/// cubes that are done at once (at most about 64 MB, or one cube). Not for several threads at once.
+/// Works in a buffer of its own, kept for the next call: faces of half RGBA with a border, 1.4 times the
+/// bytes of the cubes that are done at once (at most about 64 MB, or one cube). Not for several threads at
+/// once.
 class Pyramid {
 public:
     explicit Pyramid(std::shared_ptr<const vulkan::Device> device);
 
-    /// Records the work, between begin_pass and end_pass of the caller if it is to be timed. `cubes` is a cube array of
-    /// RGBA16F with full levels and a level 0 that is not undefined; layers 6 first_cube and on are done. Afterwards it
-    /// is in SHADER_READ_ONLY_OPTIMAL, or still in GENERAL if it was, and all its levels are visible to later commands.
-    /// The pyramid must live until the commands are done. Throws std::invalid_argument naming what does not fit, and
-    /// VulkanError where the device's texel buffers are too small for one such cube.
+    /// Records the work, between begin_pass and end_pass of the caller if it is to be timed. `cubes` is a
+    /// cube array of RGBA16F with full levels and a level 0 that is not undefined; layers 6 first_cube and on
+    /// are done. Afterwards it is in SHADER_READ_ONLY_OPTIMAL, or still in GENERAL if it was, and all its
+    /// levels are visible to later commands. The pyramid must live until the commands are done. Throws
+    /// std::invalid_argument naming what does not fit, and VulkanError where the device's texel buffers are
+    /// too small for one such cube.
     void record(vulkan::Commands& commands, vulkan::Image& cubes, uint32_t first_cube, uint32_t cube_count,
                 PyramidFilter filter);
 
@@ -55,7 +58,8 @@ private:
 
     const vulkan::ComputePipeline& reduction(PyramidFilter filter, const Group& group);
     const Scratch& scratch(uint32_t face_size, uint32_t cube_count, PyramidFilter filter);
-    void record_levels(vulkan::Commands& commands, const Scratch& scratch, uint32_t cube_count, PyramidFilter filter);
+    void record_levels(vulkan::Commands& commands, const Scratch& scratch, uint32_t cube_count,
+                       PyramidFilter filter);
 
     std::shared_ptr<const vulkan::Device> device_;
     vulkan::Shader reduce_shader_;

@@ -7,8 +7,8 @@
 namespace burnish {
 
 std::vector<double> texel_solid_angles(uint32_t face_size) {
-    // The integral of du dv / (1 + u^2 + v^2)^(3/2) from (0, 0) is atan(u v / sqrt(1 + u^2 + v^2)): a rectangle is its
-    // mixed difference.
+    // The integral of du dv / (1 + u^2 + v^2)^(3/2) from (0, 0) is atan(u v / sqrt(1 + u^2 + v^2)): a
+    // rectangle is its mixed difference.
     const auto corner_row = [&](uint32_t row) {
         const double v = 2.0 * row / face_size - 1.0;
         std::vector<double> corners(face_size + 1);

@@ -15,20 +15,21 @@ namespace {
 constexpr uint32_t LEAST_THREADED_FACE_SIZE = 256; // below, starting threads costs more than it saves
 using Coefficients = std::array<glm::dvec3, 9>;
 
-/// Integral over the texels of a row of radiance times the monomials 1, y, z, x, xy, yz, z^2, xz, x^2 - y^2 of the
-/// direction: what the harmonics are made of.
-Coefficients integrate_row(const float* radiance, const double* solid_angles, const FaceAxes& face, uint32_t face_size,
-                           uint32_t row) {
+/// Integral over the texels of a row of radiance times the monomials 1, y, z, x, xy, yz, z^2, xz, x^2 - y^2
+/// of the direction: what the harmonics are made of.
+Coefficients integrate_row(const float* radiance, const double* solid_angles, const FaceAxes& face,
+                           uint32_t face_size, uint32_t row) {
     Coefficients sum{};
     const glm::dvec3 left = face.axis + ((2.0 * row + 1.0) / face_size - 1.0) * face.down;
     for (uint32_t column = 0; column < face_size; ++column) {
         const glm::dvec3 toward = left + ((2.0 * column + 1.0) / face_size - 1.0) * face.right;
         const glm::dvec3 d = toward / std::sqrt(glm::dot(toward, toward));
-        const std::array<double, 9> monomials{1.0,       d.y,       d.z,       d.x,      d.x * d.y,
-                                              d.y * d.z, d.z * d.z, d.x * d.z, d.x * d.x - d.y * d.y};
+        const std::array<double, 9> monomials{
+            1.0, d.y, d.z, d.x, d.x * d.y, d.y * d.z, d.z * d.z, d.x * d.z, d.x * d.x - d.y * d.y};
         const float* texel = radiance + 3 * size_t{column};
         const glm::dvec3 light = solid_angles[column] * glm::dvec3(texel[0], texel[1], texel[2]);
-        for (size_t k = 0; k < 9; ++k) sum[k] += monomials[k] * light;
+        for (size_t k = 0; k < 9; ++k)
+            sum[k] += monomials[k] * light;
     }
     return sum;
 }
@@ -52,12 +53,14 @@ std::array<glm::dvec3, 9> irradiance_over_pi_coefficients(const Environment& env
         face_size < LEAST_THREADED_FACE_SIZE ? 1 : std::max(1u, std::thread::hardware_concurrency());
     {
         std::vector<std::jthread> others;
-        for (size_t k = 1; k < thread_count; ++k) others.emplace_back(integrate, k, thread_count);
+        for (size_t k = 1; k < thread_count; ++k)
+            others.emplace_back(integrate, k, thread_count);
         integrate(0, thread_count);
     }
     Coefficients sum{};
     for (const Coefficients& row : rows) {
-        for (size_t k = 0; k < 9; ++k) sum[k] += row[k];
+        for (size_t k = 0; k < 9; ++k)
+            sum[k] += row[k];
     }
 
     // Normalisation of the harmonics, and the cosine lobe's factors pi, 2 pi/3, pi/4 over pi.
@@ -67,8 +70,15 @@ std::array<glm::dvec3, 9> irradiance_over_pi_coefficients(const Environment& env
     const double y2 = std::sqrt(15.0 / (4.0 * PI)) * (1.0 / 4.0);
     const double y20 = std::sqrt(5.0 / (16.0 * PI)) * (1.0 / 4.0);
     const glm::dvec3 all = sum[0];
-    return {y0 * all,    y1 * sum[1], y1 * sum[2], y1 * sum[3], y2 * sum[4], y2 * sum[5], y20 * (3.0 * sum[6] - all),
-            y2 * sum[7], y2 / 2.0 * sum[8]};
+    return {y0 * all,
+            y1 * sum[1],
+            y1 * sum[2],
+            y1 * sum[3],
+            y2 * sum[4],
+            y2 * sum[5],
+            y20 * (3.0 * sum[6] - all),
+            y2 * sum[7],
+            y2 / 2.0 * sum[8]};
 }
 
 } // namespace burnish

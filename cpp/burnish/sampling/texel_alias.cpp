@@ -12,7 +12,8 @@ namespace {
 constexpr double UNIFORM_PART = 0.05;
 
 /// Luminance of the 3x3 texels around each texel of a face, times 9, times its solid angle.
-void blur_face(const float* radiance, const std::vector<double>& solid_angles, uint32_t face_size, double* weights) {
+void blur_face(const float* radiance, const std::vector<double>& solid_angles, uint32_t face_size,
+               double* weights) {
     const size_t texel_count = solid_angles.size();
     std::vector<double> luminance(texel_count), along_rows(texel_count);
     for (size_t texel = 0; texel < texel_count; ++texel) {
@@ -23,7 +24,8 @@ void blur_face(const float* radiance, const std::vector<double>& solid_angles, u
         for (size_t column = 0; column < face_size; ++column) {
             const size_t before = column == 0 ? column : column - 1;
             const size_t after = column + 1 == face_size ? column : column + 1;
-            along_rows[row + column] = luminance[row + before] + luminance[row + column] + luminance[row + after];
+            along_rows[row + column] =
+                luminance[row + before] + luminance[row + column] + luminance[row + after];
         }
     }
     for (uint32_t row = 0; row < face_size; ++row) {
@@ -46,7 +48,8 @@ std::vector<double> scaled_probabilities(const Environment& environment, uint32_
     for (size_t face = 0; face < 6; ++face) {
         blur_face(environment.radiance().data() + 3 * face * face_texels, solid_angles, face_size,
                   scaled.data() + face * face_texels);
-        for (size_t texel = 0; texel < face_texels; ++texel) sum += scaled[face * face_texels + texel];
+        for (size_t texel = 0; texel < face_texels; ++texel)
+            sum += scaled[face * face_texels + texel];
     }
     const double count = static_cast<double>(scaled.size());
     const double by_light = sum > 0.0 ? (1.0 - UNIFORM_PART) * count / sum : 0.0;
@@ -70,7 +73,8 @@ std::vector<shared::TexelAlias> build_texel_alias(const Environment& environment
         table[texel] = {1.0f, texel, 0.0f, 0};
         waiting[left[texel] < 1.0 ? poor_end++ : --rich_begin] = texel;
     }
-    // An entry of a poor texel is filled up by a rich one. Who remains in the end has a share of 1 but for rounding.
+    // An entry of a poor texel is filled up by a rich one. Who remains in the end has a share of 1 but for
+    // rounding.
     while (poor_end > 0 && rich_begin < count) {
         const uint32_t poor = waiting[--poor_end];
         const uint32_t rich = waiting[rich_begin];
@@ -89,7 +93,8 @@ std::vector<shared::TexelAlias> build_texel_alias(const Environment& environment
         shares[texel] += table[texel].threshold;
         shares[table[texel].alias] += 1.0 - table[texel].threshold;
     }
-    for (uint32_t texel = 0; texel < count; ++texel) table[texel].probability = static_cast<float>(shares[texel] / count);
+    for (uint32_t texel = 0; texel < count; ++texel)
+        table[texel].probability = static_cast<float>(shares[texel] / count);
     return table;
 }
 
