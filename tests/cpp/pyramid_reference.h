@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <random>
 #include <vector>
 
 #include <glm/gtc/packing.hpp>
@@ -94,6 +95,21 @@ inline std::vector<double> taps_of(PyramidFilter filter) {
     default:
         return {0.03125, 0.15625, 0.3125, 0.3125, 0.15625, 0.03125};
     }
+}
+
+// Halves over the whole range, subnormal ones and the largest among them; mostly of moderate size.
+inline Faces random_faces(uint32_t size, uint32_t seed) {
+    std::mt19937 generator(seed);
+    std::uniform_real_distribution<float> exponent(-2.0f, 2.0f);
+    std::uniform_int_distribution<int> kind(0, 99);
+    Faces faces(size_t{6} * size * size * 3);
+    for (float& value : faces) {
+        const int k = kind(generator);
+        const float moderate = std::exp2(exponent(generator));
+        value = k == 0 ? 65504.0f : k == 1 ? 0.0f : k < 4 ? moderate * 1e-6f : moderate;
+        value = float(half_of(value));
+    }
+    return faces;
 }
 
 } // namespace burnish

@@ -15,21 +15,6 @@
 namespace burnish {
 namespace {
 
-// Halves over the whole range, subnormal ones and the largest among them; mostly of moderate size.
-Faces random_faces(uint32_t size, uint32_t seed) {
-    std::mt19937 generator(seed);
-    std::uniform_real_distribution<float> exponent(-2.0f, 2.0f);
-    std::uniform_int_distribution<int> kind(0, 99);
-    Faces faces(size_t{6} * size * size * 3);
-    for (float& value : faces) {
-        const int k = kind(generator);
-        const float moderate = std::exp2(exponent(generator));
-        value = k == 0 ? 65504.0f : k == 1 ? 0.0f : k < 4 ? moderate * 1e-6f : moderate;
-        value = float(half_of(value));
-    }
-    return faces;
-}
-
 Faces faces_of(uint32_t size, const std::function<glm::vec3(const glm::vec3&)>& radiance) {
     Faces faces(size_t{6} * size * size * 3);
     for (uint32_t face = 0; face < 6; ++face) {
