@@ -6,9 +6,11 @@
 
 #include <glm/glm.hpp>
 
+#include "shared/constants.h"
+
 namespace burnish {
 
-constexpr uint32_t ALBEDO_COS_NODES = 64;
+using shared::ALBEDO_COS_NODES;
 
 /// E(omega_o) = weight (r0 E1 + (1 - r0) Es) cos_o^-alpha with
 ///   E1 = int D cos_i^(1-alpha) dh,   Es = int D (1 - o.h)^5 cos_i^(1-alpha) dh   over {h : o.h > 0, cos_i > 0}.

@@ -31,7 +31,8 @@ std::vector<Circle> circles_of(Spacing spacing, uint32_t circle_count, double th
         }
         const double theta = has_pole ? i * step : (i + 2.0 / 3.0) * step;
         const double exact = first_count * std::sin(theta) / std::sin(first_theta);
-        circles.push_back({theta, static_cast<uint32_t>(std::lround(exact))});
+        // Rounded up: the only rounding that gives all published counts. Whole numbers stay what they are.
+        circles.push_back({theta, static_cast<uint32_t>(std::ceil(exact - 1e-9))});
     }
     return circles;
 }
@@ -109,17 +110,18 @@ std::vector<glm::dvec3> choose_regular_pattern(glm::dvec2 roughness, uint32_t sa
 }
 
 double lobe_solid_angle(glm::dvec2 roughness, double threshold) {
-    // 1 - cos(theta_max(phi)) integrated over a quarter; periodic and smooth, so the midpoint rule converges exponentially.
-    constexpr int steps = 512;
-    const double limit = -std::log(threshold);
+    // The lobe's edge has slopes (a cos t, b sin t). 1 - cos(theta) integrated over azimuth, with azimuth in terms of t:
+    // dphi = a b / |slopes|^2 dt, and 1 - cos = |slopes|^2 / (w (w + 1)), w^2 = 1 + |slopes|^2. Periodic and smooth even for
+    // aspects of a thousand, so that the midpoint rule converges exponentially.
+    constexpr int steps = 1024;
+    const double reach = std::sqrt(-std::log(threshold));
+    const glm::dvec2 axes = roughness * reach;
     double sum = 0.0;
     for (int k = 0; k < steps; ++k) {
-        const double phi = 2.0 * PI * (k + 0.5) / steps;
-        const double x = std::cos(phi) / roughness.x;
-        const double y = std::sin(phi) / roughness.y;
-        const double tan2 = limit / (x * x + y * y);
-        const double cos_theta = 1.0 / std::sqrt(1.0 + tan2);
-        sum += tan2 * cos_theta * cos_theta / (1.0 + cos_theta); // 1 - cos without cancellation
+        const double t = 2.0 * PI * (k + 0.5) / steps;
+        const glm::dvec2 slope = axes * glm::dvec2(std::cos(t), std::sin(t));
+        const double w = std::sqrt(1.0 + glm::dot(slope, slope));
+        sum += axes.x * axes.y / (w * (w + 1.0));
     }
     return sum * 2.0 * PI / steps;
 }

@@ -1,0 +1,20 @@
+#include "burnish/sampling/pyramid_filter.h"
+
+#include <stdexcept>
+
+#include "burnish/error.h"
+
+namespace burnish {
+
+PyramidFilter pyramid_filter(const std::string& name) {
+    for (const PyramidFilter filter : {PyramidFilter::box, PyramidFilter::gauss4, PyramidFilter::gauss6}) {
+        if (name == pyramid_filter_name(filter)) return filter;
+    }
+    throw std::invalid_argument(message("filter: expected \"box\", \"gauss4\" or \"gauss6\", got \"", name, "\""));
+}
+
+const char* pyramid_filter_name(PyramidFilter filter) {
+    return filter == PyramidFilter::box ? "box" : filter == PyramidFilter::gauss4 ? "gauss4" : "gauss6";
+}
+
+} // namespace burnish
