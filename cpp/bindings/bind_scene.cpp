@@ -25,19 +25,22 @@ uint32_t require_index(const char* name, int64_t index, size_t count) {
 
 glm::mat4 transform_of(const py::object& transform, const char* name) {
     glm::mat4 matrix = mat4_of(transform, name);
-    if (!is_finite(matrix) || matrix[0].w != 0.0f || matrix[1].w != 0.0f || matrix[2].w != 0.0f || matrix[3].w != 1.0f)
-        throw std::invalid_argument(message(name, ": expected finite numbers with a last row of 0 0 0 1, got others"));
+    if (!is_finite(matrix) || matrix[0].w != 0.0f || matrix[1].w != 0.0f || matrix[2].w != 0.0f ||
+        matrix[3].w != 1.0f)
+        throw std::invalid_argument(
+            message(name, ": expected finite numbers with a last row of 0 0 0 1, got others"));
     return matrix;
 }
 
-uint32_t add(Scene& scene, const Mesh& mesh, const Material& material, const std::optional<py::object>& transform,
-             std::string name) {
+uint32_t add(Scene& scene, const Mesh& mesh, const Material& material,
+             const std::optional<py::object>& transform, std::string name) {
     Object object;
     object.world_from_object = transform ? transform_of(*transform, "transform") : glm::mat4(1.0f);
     object.name = name.empty() ? message("object.", scene.objects.size()) : std::move(name);
     for (const Object& other : scene.objects)
         if (other.name == object.name)
-            throw std::invalid_argument(message("name: expected a new name, got \"", object.name, "\" again"));
+            throw std::invalid_argument(
+                message("name: expected a new name, got \"", object.name, "\" again"));
     object.mesh = static_cast<uint32_t>(scene.meshes.size());
     object.material = static_cast<uint32_t>(scene.materials.size());
     scene.meshes.push_back(mesh);
@@ -51,12 +54,17 @@ std::shared_ptr<Environment> mutable_of(const std::shared_ptr<const Environment>
     return std::const_pointer_cast<Environment>(environment);
 }
 
-py::tuple bounds_of(const Bounds& bounds) { return py::make_tuple(tuple_of(bounds.low), tuple_of(bounds.high)); }
+py::tuple bounds_of(const Bounds& bounds) {
+    return py::make_tuple(tuple_of(bounds.low), tuple_of(bounds.high));
+}
 
 void bind_object(py::module_& m) {
-    py::class_<ObjectHandle>(m, "Object", "One mesh placed in a scene. It stays valid as long as the scene does.")
-        .def_property_readonly("name", [](const ObjectHandle& x) { return x.get().name; }, "Unique within the scene.")
-        .def_property_readonly("mesh", [](const ObjectHandle& x) { return x.get().mesh; }, "Index into scene.meshes.")
+    py::class_<ObjectHandle>(m, "Object",
+                             "One mesh placed in a scene. It stays valid as long as the scene does.")
+        .def_property_readonly(
+            "name", [](const ObjectHandle& x) { return x.get().name; }, "Unique within the scene.")
+        .def_property_readonly(
+            "mesh", [](const ObjectHandle& x) { return x.get().mesh; }, "Index into scene.meshes.")
         .def_property(
             "material", [](const ObjectHandle& x) { return x.get().material; },
             [](const ObjectHandle& x, int64_t index) {
@@ -75,8 +83,9 @@ void bind_object(py::module_& m) {
                 x.get().reflects = std::move(environment);
             },
             "The Environment its lobes reflect; None is the scene's.")
-        .def("bounds", [](const ObjectHandle& x) { return bounds_of(x.scene->object_bounds(x.index)); },
-             "Box in the world.\n\nReturns\n-------\nlow, high : (3,) tuples of float")
+        .def(
+            "bounds", [](const ObjectHandle& x) { return bounds_of(x.scene->object_bounds(x.index)); },
+            "Box in the world.\n\nReturns\n-------\nlow, high : (3,) tuples of float")
         .def("__repr__", [](const ObjectHandle& x) { return message("Object(name='", x.get().name, "')"); });
 }
 
@@ -85,7 +94,8 @@ void bind_object(py::module_& m) {
 void bind_scene(py::module_& m) {
     bind_scene_parts(m);
     bind_object(m);
-    py::class_<Scene, std::shared_ptr<Scene>>(m, "Scene", R"(What there is to render: objects, materials, cameras and distant light.
+    py::class_<Scene, std::shared_ptr<Scene>>(
+        m, "Scene", R"(What there is to render: objects, materials, cameras and distant light.
 
 `Scene()` is empty; `add` fills it. Meshes, materials and cameras are values: the tuples hold copies.)")
         .def(py::init<>())
@@ -111,32 +121,41 @@ Raises
 ------
 FileError
     If the file is missing, damaged, or requires an extension that is not supported.)")
-        .def_static("sphere", [](const Material& material) { return std::make_shared<Scene>(Scene::sphere(material)); },
-                    py::arg("material"), "A unit sphere at the origin.\n\nParameters\n----------\nmaterial : Material")
+        .def_static(
+            "sphere",
+            [](const Material& material) { return std::make_shared<Scene>(Scene::sphere(material)); },
+            py::arg("material"),
+            "A unit sphere at the origin.\n\nParameters\n----------\nmaterial : Material")
         .def_static(
             "spheres",
             [](const std::vector<Material>& materials, int64_t columns) {
-                if (columns < 1) throw std::invalid_argument(message("columns: expected a number >= 1, got ", columns));
+                if (columns < 1)
+                    throw std::invalid_argument(message("columns: expected a number >= 1, got ", columns));
                 return std::make_shared<Scene>(
                     Scene::spheres(materials, static_cast<uint32_t>(std::min<int64_t>(columns, UINT32_MAX))));
             },
             py::arg("materials"), py::arg("columns"),
-            "Unit spheres in a grid, one material each, row by row from the top left.\n\nParameters\n----------\n"
+            "Unit spheres in a grid, one material each, row by row from the top "
+            "left.\n\nParameters\n----------\n"
             "materials : list of Material\ncolumns : int\n    >= 1.")
-        .def_static("plane", [](const Material& material) { return std::make_shared<Scene>(Scene::plane(material)); },
-                    py::arg("material"),
-                    "A square of side 2 in the xz plane, normal +y.\n\nParameters\n----------\nmaterial : Material")
-        .def_static("shader_ball",
-                    [](const Material& material, const std::optional<Material>& ground) {
-                        Material grey;
-                        grey.name = "ground";
-                        grey.diffuse = glm::vec3(0.18f);
-                        return std::make_shared<Scene>(Scene::shader_ball(material, ground.value_or(grey)));
-                    },
-                    py::arg("material"), py::arg("ground") = py::none(),
-                    "A ball with a groove, on a foot, over a ground plane.\n\nParameters\n----------\nmaterial : Material\n"
-                    "ground : None or Material\n    None is diffuse grey.")
-        .def("add", &add, py::arg("mesh"), py::arg("material"), py::arg("transform") = py::none(), py::arg("name") = "",
+        .def_static(
+            "plane", [](const Material& material) { return std::make_shared<Scene>(Scene::plane(material)); },
+            py::arg("material"),
+            "A square of side 2 in the xz plane, normal +y.\n\nParameters\n----------\nmaterial : Material")
+        .def_static(
+            "shader_ball",
+            [](const Material& material, const std::optional<Material>& ground) {
+                Material grey;
+                grey.name = "ground";
+                grey.diffuse = glm::vec3(0.18f);
+                return std::make_shared<Scene>(Scene::shader_ball(material, ground.value_or(grey)));
+            },
+            py::arg("material"), py::arg("ground") = py::none(),
+            "A ball with a groove, on a foot, over a ground plane.\n\nParameters\n----------\nmaterial : "
+            "Material\n"
+            "ground : None or Material\n    None is diffuse grey.")
+        .def("add", &add, py::arg("mesh"), py::arg("material"), py::arg("transform") = py::none(),
+             py::arg("name") = "",
              R"(Place a mesh.
 
 Parameters
@@ -152,28 +171,39 @@ Returns
 -------
 index : int
     Of the object.)")
-        .def("set_material",
-             [](Scene& scene, int64_t index, const Material& material) {
-                 scene.materials[require_index("index", index, scene.materials.size())] = material;
-             },
-             py::arg("index"), py::arg("material"),
-             "Replace a material.\n\nParameters\n----------\nindex : int\n    Into materials.\nmaterial : Material")
-        .def("add_camera", [](Scene& scene, const Camera& camera) { scene.cameras.push_back(camera); }, py::arg("camera"),
-             "Append a camera.\n\nParameters\n----------\ncamera : Camera")
-        .def("find_object",
-             [](const std::shared_ptr<Scene>& scene, const std::string& name) {
-                 return ObjectHandle{scene, scene->find_object(name)};
-             },
-             py::arg("name"), "The object of that name.\n\nParameters\n----------\nname : str\n\nReturns\n-------\nobject : Object")
+        .def(
+            "set_material",
+            [](Scene& scene, int64_t index, const Material& material) {
+                scene.materials[require_index("index", index, scene.materials.size())] = material;
+            },
+            py::arg("index"), py::arg("material"),
+            "Replace a material.\n\nParameters\n----------\nindex : int\n    Into materials.\nmaterial : "
+            "Material")
+        .def(
+            "add_camera", [](Scene& scene, const Camera& camera) { scene.cameras.push_back(camera); },
+            py::arg("camera"), "Append a camera.\n\nParameters\n----------\ncamera : Camera")
+        .def(
+            "find_object",
+            [](const std::shared_ptr<Scene>& scene, const std::string& name) {
+                return ObjectHandle{scene, scene->find_object(name)};
+            },
+            py::arg("name"),
+            "The object of that name.\n\nParameters\n----------\nname : str\n\nReturns\n-------\nobject : "
+            "Object")
         .def("default_camera", &Scene::default_camera,
-             "A camera that sees everything, from the front and a little above.\n\nReturns\n-------\ncamera : Camera")
-        .def("bounds", [](const Scene& scene) { return bounds_of(scene.bounds()); },
-             "Box around all objects in the world.\n\nReturns\n-------\nlow, high : (3,) tuples of float")
+             "A camera that sees everything, from the front and a little above.\n\nReturns\n-------\ncamera "
+             ": Camera")
+        .def(
+            "bounds", [](const Scene& scene) { return bounds_of(scene.bounds()); },
+            "Box around all objects in the world.\n\nReturns\n-------\nlow, high : (3,) tuples of float")
         .def_readwrite("name", &Scene::name, "Shown in reports.")
-        .def_property_readonly("meshes", [](const Scene& x) { return py::tuple(py::cast(x.meshes)); }, "Tuple of Mesh.")
-        .def_property_readonly("materials", [](const Scene& x) { return py::tuple(py::cast(x.materials)); },
-                               "Tuple of Material; `set_material` replaces one.")
-        .def_property_readonly("cameras", [](const Scene& x) { return py::tuple(py::cast(x.cameras)); }, "Tuple of Camera.")
+        .def_property_readonly(
+            "meshes", [](const Scene& x) { return py::tuple(py::cast(x.meshes)); }, "Tuple of Mesh.")
+        .def_property_readonly(
+            "materials", [](const Scene& x) { return py::tuple(py::cast(x.materials)); },
+            "Tuple of Material; `set_material` replaces one.")
+        .def_property_readonly(
+            "cameras", [](const Scene& x) { return py::tuple(py::cast(x.cameras)); }, "Tuple of Camera.")
         .def_property_readonly(
             "objects",
             [](const std::shared_ptr<Scene>& scene) {
@@ -183,7 +213,8 @@ index : int
                 return objects;
             },
             "Tuple of Object.")
-        .def_property_readonly("image_count", [](const Scene& x) { return x.images.size(); }, "Pictures its materials read.")
+        .def_property_readonly(
+            "image_count", [](const Scene& x) { return x.images.size(); }, "Pictures its materials read.")
         .def_property_readonly(
             "triangle_count",
             [](const Scene& x) {
@@ -193,16 +224,23 @@ index : int
                 return count;
             },
             "Triangles of all objects.")
-        .def_property("environment", [](const Scene& x) { return mutable_of(x.environment); },
-                      [](Scene& x, std::shared_ptr<Environment> environment) { x.environment = std::move(environment); },
-                      "The distant light, an Environment or None.")
-        .def_readwrite("show_background", &Scene::show_background, "Whether the environment is drawn where no object is.")
-        .def_property_readonly("warnings", [](const Scene& x) { return x.warnings; },
-                               "List of str: what was repaired or left out while loading.")
-        .def_property_readonly("ignored_extensions", [](const Scene& x) { return x.ignored_extensions; },
-                               "List of str: optional glTF extensions without effect here.")
+        .def_property(
+            "environment", [](const Scene& x) { return mutable_of(x.environment); },
+            [](Scene& x, std::shared_ptr<Environment> environment) {
+                x.environment = std::move(environment);
+            },
+            "The distant light, an Environment or None.")
+        .def_readwrite("show_background", &Scene::show_background,
+                       "Whether the environment is drawn where no object is.")
+        .def_property_readonly(
+            "warnings", [](const Scene& x) { return x.warnings; },
+            "List of str: what was repaired or left out while loading.")
+        .def_property_readonly(
+            "ignored_extensions", [](const Scene& x) { return x.ignored_extensions; },
+            "List of str: optional glTF extensions without effect here.")
         .def("__repr__", [](const Scene& x) {
-            return message("Scene(name='", x.name, "', objects=", x.objects.size(), ", materials=", x.materials.size(), ")");
+            return message("Scene(name='", x.name, "', objects=", x.objects.size(),
+                           ", materials=", x.materials.size(), ")");
         });
 }
 

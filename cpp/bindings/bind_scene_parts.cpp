@@ -1,4 +1,5 @@
-// KurtLobe, Material, Mesh and Camera: values that do not change once made, so that no copy can go stale unseen.
+// KurtLobe, Material, Mesh and Camera: values that do not change once made, so that no copy can go stale
+// unseen.
 #include "burnish/scene/scene.h"
 #include "scene_values.h"
 
@@ -12,13 +13,13 @@ KurtLobe make_lobe(const Pair& roughness, const Color& r0, float alpha, const Co
 }
 
 std::string repr(const KurtLobe& lobe) {
-    return message("KurtLobe(roughness=(", lobe.roughness.x, ", ", lobe.roughness.y, "), r0=(", lobe.r0.x, ", ", lobe.r0.y,
-                   ", ", lobe.r0.z, "), alpha=", lobe.alpha, ", weight=(", lobe.weight.x, ", ", lobe.weight.y, ", ",
-                   lobe.weight.z, "), rotation=", lobe.rotation, ")");
+    return message("KurtLobe(roughness=(", lobe.roughness.x, ", ", lobe.roughness.y, "), r0=(", lobe.r0.x,
+                   ", ", lobe.r0.y, ", ", lobe.r0.z, "), alpha=", lobe.alpha, ", weight=(", lobe.weight.x,
+                   ", ", lobe.weight.y, ", ", lobe.weight.z, "), rotation=", lobe.rotation, ")");
 }
 
-Material make_material(const Color& diffuse, std::vector<KurtLobe> lobes, const Color& emissive, std::string name,
-                       bool double_sided) {
+Material make_material(const Color& diffuse, std::vector<KurtLobe> lobes, const Color& emissive,
+                       std::string name, bool double_sided) {
     Material material;
     material.diffuse = vec3_of(diffuse);
     material.lobes = std::move(lobes);
@@ -31,13 +32,17 @@ Material make_material(const Color& diffuse, std::vector<KurtLobe> lobes, const 
 
 const char* alpha_mode_name(const Material& material) {
     switch (material.alpha_mode) {
-    case AlphaMode::mask: return "mask";
-    case AlphaMode::blend: return "blend";
-    default: return "opaque";
+    case AlphaMode::mask:
+        return "mask";
+    case AlphaMode::blend:
+        return "blend";
+    default:
+        return "opaque";
     }
 }
 
-template <typename Vector> std::vector<Vector> vectors_of(const py::array& array, const char* name) {
+template <typename Vector>
+std::vector<Vector> vectors_of(const py::array& array, const char* name) {
     constexpr py::ssize_t COMPONENTS = sizeof(Vector) / sizeof(float);
     const auto checked = require_array<float>(array, name, {any, COMPONENTS});
     const auto* first = reinterpret_cast<const Vector*>(checked.data());
@@ -45,7 +50,8 @@ template <typename Vector> std::vector<Vector> vectors_of(const py::array& array
 }
 
 Mesh make_mesh(const py::array& positions, const py::array& indices, const std::optional<py::array>& normals,
-               const std::optional<py::array>& tangents, const std::optional<py::array>& uv0, std::string name) {
+               const std::optional<py::array>& tangents, const std::optional<py::array>& uv0,
+               std::string name) {
     Mesh mesh;
     mesh.name = std::move(name);
     mesh.positions = vectors_of<glm::vec3>(positions, "positions");
@@ -65,10 +71,12 @@ Mesh make_mesh(const py::array& positions, const py::array& indices, const std::
 }
 
 py::array_t<uint32_t> triangles_of(const Mesh& mesh) {
-    return make_array(std::vector<uint32_t>(mesh.indices), {static_cast<py::ssize_t>(mesh.indices.size() / 3), 3});
+    return make_array(std::vector<uint32_t>(mesh.indices),
+                      {static_cast<py::ssize_t>(mesh.indices.size() / 3), 3});
 }
 
-Camera make_look_at(const Triple& eye, const Triple& target, const Triple& up, float vertical_fov, float near_plane) {
+Camera make_look_at(const Triple& eye, const Triple& target, const Triple& up, float vertical_fov,
+                    float near_plane) {
     Camera camera = look_at(vec3_of(eye), vec3_of(target), vec3_of(up));
     camera.vertical_fov = vertical_fov;
     camera.near_plane = near_plane;
@@ -76,8 +84,8 @@ Camera make_look_at(const Triple& eye, const Triple& target, const Triple& up, f
     return camera;
 }
 
-Camera make_orthographic(const Triple& eye, const Triple& target, const Triple& up, float half_height, float near_plane,
-                         float far_plane) {
+Camera make_orthographic(const Triple& eye, const Triple& target, const Triple& up, float half_height,
+                         float near_plane, float far_plane) {
     Camera camera = look_at(vec3_of(eye), vec3_of(target), vec3_of(up));
     camera.is_orthographic = true;
     camera.half_height = half_height;
@@ -87,7 +95,8 @@ Camera make_orthographic(const Triple& eye, const Triple& target, const Triple& 
     return camera;
 }
 
-Camera make_camera(const py::object& world_from_camera, float vertical_fov, float near_plane, std::string name) {
+Camera make_camera(const py::object& world_from_camera, float vertical_fov, float near_plane,
+                   std::string name) {
     Camera camera;
     camera.world_from_camera = mat4_of(world_from_camera, "world_from_camera");
     camera.vertical_fov = vertical_fov;
@@ -98,7 +107,8 @@ Camera make_camera(const py::object& world_from_camera, float vertical_fov, floa
 }
 
 void bind_lobe(py::module_& m) {
-    py::class_<KurtLobe>(m, "KurtLobe", R"(One glossy lobe after Kurt et al. 2010. It does not change once made.
+    py::class_<KurtLobe>(m, "KurtLobe",
+                         R"(One glossy lobe after Kurt et al. 2010. It does not change once made.
 
 f = weight F(u) D / (4 (o.h) ((i.n)(o.n))^alpha) with F(u) = r0 + (1 - r0)(1 - u)^5 and Beckmann's D.
 
@@ -119,15 +129,17 @@ Raises
 ------
 ValueError
     If a number is out of its range.)")
-        .def(py::init(&make_lobe), py::arg("roughness") = Pair(0.2f), py::arg("r0") = Color(1.0f), py::arg("alpha") = 0.0f,
-             py::arg("weight") = Color(1.0f), py::arg("rotation") = 0.0f)
-        .def_property_readonly("roughness", [](const KurtLobe& l) { return tuple_of(l.roughness); },
-                               "(float, float): Beckmann slopes along tangent and bitangent.")
-        .def_property_readonly("r0", [](const KurtLobe& l) { return tuple_of(l.r0); },
-                               "(float, float, float): reflectance at normal incidence.")
+        .def(py::init(&make_lobe), py::arg("roughness") = Pair(0.2f), py::arg("r0") = Color(1.0f),
+             py::arg("alpha") = 0.0f, py::arg("weight") = Color(1.0f), py::arg("rotation") = 0.0f)
+        .def_property_readonly(
+            "roughness", [](const KurtLobe& l) { return tuple_of(l.roughness); },
+            "(float, float): Beckmann slopes along tangent and bitangent.")
+        .def_property_readonly(
+            "r0", [](const KurtLobe& l) { return tuple_of(l.r0); },
+            "(float, float, float): reflectance at normal incidence.")
         .def_readonly("alpha", &KurtLobe::alpha, "Grazing exponent.")
-        .def_property_readonly("weight", [](const KurtLobe& l) { return tuple_of(l.weight); },
-                               "(float, float, float): colour.")
+        .def_property_readonly(
+            "weight", [](const KurtLobe& l) { return tuple_of(l.weight); }, "(float, float, float): colour.")
         .def_readonly("rotation", &KurtLobe::rotation, "Radians about the normal.")
         .def_property_readonly("is_anisotropic", &KurtLobe::is_anisotropic, "Whether the two slopes differ.")
         .def_property_readonly("has_fresnel", &KurtLobe::has_fresnel, "Whether r0 is below 1 anywhere.")
@@ -135,7 +147,8 @@ ValueError
 }
 
 void bind_material(py::module_& m) {
-    py::class_<Material>(m, "Material", R"(Diffuse plus one to four glossy lobes. It does not change once made.
+    py::class_<Material>(m, "Material",
+                         R"(Diffuse plus one to four glossy lobes. It does not change once made.
 
 Parameters
 ----------
@@ -154,20 +167,26 @@ Raises
 ------
 ValueError
     If a number is out of its range.)")
-        .def(py::init(&make_material), py::arg("diffuse") = Color(0.0f), py::arg("lobes") = std::vector<KurtLobe>{},
-             py::arg("emissive") = Color(0.0f), py::arg("name") = "", py::arg("double_sided") = false)
-        .def_property_readonly("diffuse", [](const Material& x) { return tuple_of(x.diffuse); },
-                               "(float, float, float): diffuse reflectance.")
-        .def_property_readonly("lobes", [](const Material& x) { return py::tuple(py::cast(x.lobes)); },
-                               "Tuple of KurtLobe.")
-        .def_property_readonly("emissive", [](const Material& x) { return tuple_of(x.emissive); },
-                               "(float, float, float): radiance given off.")
+        .def(py::init(&make_material), py::arg("diffuse") = Color(0.0f),
+             py::arg("lobes") = std::vector<KurtLobe>{}, py::arg("emissive") = Color(0.0f),
+             py::arg("name") = "", py::arg("double_sided") = false)
+        .def_property_readonly(
+            "diffuse", [](const Material& x) { return tuple_of(x.diffuse); },
+            "(float, float, float): diffuse reflectance.")
+        .def_property_readonly(
+            "lobes", [](const Material& x) { return py::tuple(py::cast(x.lobes)); }, "Tuple of KurtLobe.")
+        .def_property_readonly(
+            "emissive", [](const Material& x) { return tuple_of(x.emissive); },
+            "(float, float, float): radiance given off.")
         .def_readonly("name", &Material::name, "Shown in reports.")
         .def_readonly("double_sided", &Material::double_sided, "Whether back faces are drawn.")
-        .def_property_readonly("alpha_mode", &alpha_mode_name, "'opaque', 'mask' or 'blend' (drawn as a mask at 0.5).")
-        .def_readonly("alpha_cutoff", &Material::alpha_cutoff, "Coverage below it is left out, for alpha_mode 'mask'.")
-        .def_property_readonly("is_metallic_roughness", [](const Material& x) { return x.source.has_value(); },
-                               "Whether it came from a glTF file; textures then vary it over the surface.")
+        .def_property_readonly("alpha_mode", &alpha_mode_name,
+                               "'opaque', 'mask' or 'blend' (drawn as a mask at 0.5).")
+        .def_readonly("alpha_cutoff", &Material::alpha_cutoff,
+                      "Coverage below it is left out, for alpha_mode 'mask'.")
+        .def_property_readonly(
+            "is_metallic_roughness", [](const Material& x) { return x.source.has_value(); },
+            "Whether it came from a glTF file; textures then vary it over the surface.")
         .def("__repr__", [](const Material& x) {
             return message("Material(name='", x.name, "', lobes=", x.lobes.size(), ")");
         });
@@ -197,25 +216,35 @@ ValueError
     If an array has another type, shape or layout, or holds numbers that are not finite or not in range.)")
         .def(py::init(&make_mesh), py::arg("positions"), py::arg("indices"), py::arg("normals") = py::none(),
              py::arg("tangents") = py::none(), py::arg("uv0") = py::none(), py::arg("name") = "")
-        .def_property_readonly("positions", [](const Mesh& x) { return array_of(x.positions); }, "(n, 3) float32, a copy.")
-        .def_property_readonly("normals", [](const Mesh& x) { return array_of(x.normals); }, "(n, 3) float32, a copy.")
-        .def_property_readonly("tangents", [](const Mesh& x) { return array_of(x.tangents); },
-                               "(n, 4) float32, a copy, or None.")
-        .def_property_readonly("uv0", [](const Mesh& x) { return array_of(x.uv0); }, "(n, 2) float32, a copy, or None.")
+        .def_property_readonly(
+            "positions", [](const Mesh& x) { return array_of(x.positions); }, "(n, 3) float32, a copy.")
+        .def_property_readonly(
+            "normals", [](const Mesh& x) { return array_of(x.normals); }, "(n, 3) float32, a copy.")
+        .def_property_readonly(
+            "tangents", [](const Mesh& x) { return array_of(x.tangents); },
+            "(n, 4) float32, a copy, or None.")
+        .def_property_readonly(
+            "uv0", [](const Mesh& x) { return array_of(x.uv0); }, "(n, 2) float32, a copy, or None.")
         .def_property_readonly("indices", &triangles_of, "(m, 3) uint32, a copy.")
-        .def_property_readonly("triangle_count", [](const Mesh& x) { return x.indices.size() / 3; }, "Number of triangles.")
+        .def_property_readonly(
+            "triangle_count", [](const Mesh& x) { return x.indices.size() / 3; }, "Number of triangles.")
         .def_readonly("name", &Mesh::name, "Shown in reports.")
-        .def_static("sphere", &make_sphere, py::arg("radius") = 1.0f, py::arg("segments") = 128u,
-                    "A sphere by latitude and longitude, poles on y.\n\nParameters\n----------\nradius : float\n"
-                    "segments : int\n    Around the equator, 3..4096.")
-        .def_static("torus", &make_torus, py::arg("radius") = 1.0f, py::arg("tube_radius") = 0.4f, py::arg("segments") = 128u,
-                    "A torus around y.\n\nParameters\n----------\nradius : float\ntube_radius : float\n    Below radius.\n"
+        .def_static(
+            "sphere", &make_sphere, py::arg("radius") = 1.0f, py::arg("segments") = 128u,
+            "A sphere by latitude and longitude, poles on y.\n\nParameters\n----------\nradius : float\n"
+            "segments : int\n    Around the equator, 3..4096.")
+        .def_static("torus", &make_torus, py::arg("radius") = 1.0f, py::arg("tube_radius") = 0.4f,
+                    py::arg("segments") = 128u,
+                    "A torus around y.\n\nParameters\n----------\nradius : float\ntube_radius : float\n    "
+                    "Below radius.\n"
                     "segments : int\n    Around the axis, 3..4096.")
-        .def_static("plane", &make_plane, py::arg("size") = 2.0f, py::arg("segments") = 1u,
-                    "A square in the xz plane, normal +y.\n\nParameters\n----------\nsize : float\nsegments : int\n"
-                    "    Along each side, 1..4096.")
+        .def_static(
+            "plane", &make_plane, py::arg("size") = 2.0f, py::arg("segments") = 1u,
+            "A square in the xz plane, normal +y.\n\nParameters\n----------\nsize : float\nsegments : int\n"
+            "    Along each side, 1..4096.")
         .def("__repr__", [](const Mesh& x) {
-            return message("Mesh(name='", x.name, "', vertices=", x.positions.size(), ", triangles=", x.indices.size() / 3, ")");
+            return message("Mesh(name='", x.name, "', vertices=", x.positions.size(),
+                           ", triangles=", x.indices.size() / 3, ")");
         });
 }
 
@@ -241,16 +270,22 @@ ValueError
     If a number is out of its range.)")
         .def(py::init(&make_camera), py::arg("world_from_camera"), py::arg("vertical_fov") = 0.8f,
              py::arg("near_plane") = 0.01f, py::arg("name") = "")
-        .def_static("look_at", &make_look_at, py::arg("eye"), py::arg("target"), py::arg("up") = Triple{0, 1, 0},
-                    py::arg("vertical_fov") = 0.8f, py::arg("near_plane") = 0.01f,
-                    "A pinhole camera at a point, looking at another.\n\nParameters\n----------\neye, target, up : (3,) floats\n"
+        .def_static("look_at", &make_look_at, py::arg("eye"), py::arg("target"),
+                    py::arg("up") = Triple{0, 1, 0}, py::arg("vertical_fov") = 0.8f,
+                    py::arg("near_plane") = 0.01f,
+                    "A pinhole camera at a point, looking at another.\n\nParameters\n----------\neye, "
+                    "target, up : (3,) floats\n"
                     "vertical_fov : float\n    Radians, between 0 and pi.\nnear_plane : float\n    > 0.")
-        .def_static("orthographic", &make_orthographic, py::arg("eye"), py::arg("target"), py::arg("up") = Triple{0, 1, 0},
-                    py::arg("half_height") = 1.0f, py::arg("near_plane") = 0.0f, py::arg("far_plane") = 1000.0f,
-                    "A camera without perspective.\n\nParameters\n----------\neye, target, up : (3,) floats\nhalf_height : float\n"
-                    "    Half of the height it sees, > 0.\nnear_plane, far_plane : float\n    Distances along the view.")
-        .def_property_readonly("world_from_camera", [](const Camera& x) { return array_of(x.world_from_camera); },
-                               "(4, 4) float32, a copy.")
+        .def_static("orthographic", &make_orthographic, py::arg("eye"), py::arg("target"),
+                    py::arg("up") = Triple{0, 1, 0}, py::arg("half_height") = 1.0f,
+                    py::arg("near_plane") = 0.0f, py::arg("far_plane") = 1000.0f,
+                    "A camera without perspective.\n\nParameters\n----------\neye, target, up : (3,) "
+                    "floats\nhalf_height : float\n"
+                    "    Half of the height it sees, > 0.\nnear_plane, far_plane : float\n    Distances "
+                    "along the view.")
+        .def_property_readonly(
+            "world_from_camera", [](const Camera& x) { return array_of(x.world_from_camera); },
+            "(4, 4) float32, a copy.")
         .def_readonly("is_orthographic", &Camera::is_orthographic, "Whether it has no perspective.")
         .def_readonly("vertical_fov", &Camera::vertical_fov, "Radians; perspective only.")
         .def_readonly("half_height", &Camera::half_height, "Orthographic only.")
@@ -258,8 +293,9 @@ ValueError
         .def_readonly("far_plane", &Camera::far_plane, "Distance along the view; orthographic only.")
         .def_readonly("name", &Camera::name, "Shown in reports.")
         .def("__repr__", [](const Camera& x) {
-            return x.is_orthographic ? message("Camera(name='", x.name, "', half_height=", x.half_height, ")")
-                                     : message("Camera(name='", x.name, "', vertical_fov=", x.vertical_fov, ")");
+            return x.is_orthographic
+                       ? message("Camera(name='", x.name, "', half_height=", x.half_height, ")")
+                       : message("Camera(name='", x.name, "', vertical_fov=", x.vertical_fov, ")");
         });
 }
 

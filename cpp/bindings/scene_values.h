@@ -16,8 +16,8 @@
 
 namespace burnish {
 
-using Pair = std::variant<float, std::array<float, 2>>;    ///< one number stands for both
-using Color = std::variant<float, std::array<float, 3>>;   ///< one number stands for all three
+using Pair = std::variant<float, std::array<float, 2>>;  ///< one number stands for both
+using Color = std::variant<float, std::array<float, 3>>; ///< one number stands for all three
 using Triple = std::array<float, 3>;
 
 inline glm::vec2 vec2_of(const Pair& pair) {
@@ -26,21 +26,28 @@ inline glm::vec2 vec2_of(const Pair& pair) {
     return {x, y};
 }
 
-inline glm::vec3 vec3_of(const Triple& triple) { return {triple[0], triple[1], triple[2]}; }
+inline glm::vec3 vec3_of(const Triple& triple) {
+    return {triple[0], triple[1], triple[2]};
+}
 inline glm::vec3 vec3_of(const Color& color) {
     if (const float* all = std::get_if<float>(&color)) return glm::vec3(*all);
     return vec3_of(std::get<1>(color));
 }
 
-inline py::tuple tuple_of(const glm::vec2& v) { return py::make_tuple(v.x, v.y); }
-inline py::tuple tuple_of(const glm::vec3& v) { return py::make_tuple(v.x, v.y, v.z); }
+inline py::tuple tuple_of(const glm::vec2& v) {
+    return py::make_tuple(v.x, v.y);
+}
+inline py::tuple tuple_of(const glm::vec3& v) {
+    return py::make_tuple(v.x, v.y, v.z);
+}
 
 /// (4, 4) numbers, m[row][column] as written on paper: the last column is the translation.
 inline glm::mat4 mat4_of(const py::object& object, const char* name) {
     const auto array = py::array_t<double, py::array::c_style | py::array::forcecast>::ensure(object);
     if (!array) {
         PyErr_Clear();
-        throw std::invalid_argument(message(name, ": expected numbers of shape (4, 4), got ", std::string(py::str(py::type::of(object)))));
+        throw std::invalid_argument(message(name, ": expected numbers of shape (4, 4), got ",
+                                            std::string(py::str(py::type::of(object)))));
     }
     if (array.ndim() != 2 || array.shape(0) != 4 || array.shape(1) != 4)
         throw std::invalid_argument(message(name, ": expected numbers of shape (4, 4), got shape ",
@@ -61,7 +68,8 @@ inline py::array_t<float> array_of(const glm::mat4& matrix) {
 }
 
 /// Vertex data as a new (n, components) array; None where there is none.
-template <typename Vector> py::object array_of(const std::vector<Vector>& vectors) {
+template <typename Vector>
+py::object array_of(const std::vector<Vector>& vectors) {
     if (vectors.empty()) return py::none();
     constexpr py::ssize_t COMPONENTS = sizeof(Vector) / sizeof(float);
     const float* first = reinterpret_cast<const float*>(vectors.data());

@@ -32,19 +32,22 @@ struct Builder {
     std::string views, accessors;
     int view_count = 0, accessor_count = 0;
 
-    template <typename Number> int view(const std::vector<Number>& numbers, int stride = 0) {
+    template <typename Number>
+    int view(const std::vector<Number>& numbers, int stride = 0) {
         while (bytes.size() % 4)
             bytes.push_back(0);
         size_t offset = bytes.size(), size = numbers.size() * sizeof(Number);
         bytes.resize(offset + size);
         std::memcpy(bytes.data() + offset, numbers.data(), size);
-        views += message(view_count ? "," : "", R"({"buffer":0,"byteOffset":)", offset, R"(,"byteLength":)", size,
-                         stride ? message(R"(,"byteStride":)", stride) : "", "}");
+        views += message(view_count ? "," : "", R"({"buffer":0,"byteOffset":)", offset, R"(,"byteLength":)",
+                         size, stride ? message(R"(,"byteStride":)", stride) : "", "}");
         return view_count++;
     }
     int accessor(int view_index, int type, size_t count, const char* shape, const std::string& more = "") {
-        accessors += message(accessor_count ? "," : "", "{", view_index < 0 ? "" : message(R"("bufferView":)", view_index, ","),
-                             R"("componentType":)", type, R"(,"count":)", count, R"(,"type":")", shape, "\"", more, "}");
+        accessors +=
+            message(accessor_count ? "," : "", "{",
+                    view_index < 0 ? "" : message(R"("bufferView":)", view_index, ","), R"("componentType":)",
+                    type, R"(,"count":)", count, R"(,"type":")", shape, "\"", more, "}");
         return accessor_count++;
     }
     int floats(const std::vector<float>& numbers, const char* shape, size_t components) {
@@ -52,8 +55,8 @@ struct Builder {
     }
     std::string json(const std::string& rest) const {
         return message(R"({"asset":{"version":"2.0"},"buffers":[{"byteLength":)", bytes.size(),
-                       R"(,"uri":"data:application/octet-stream;base64,)", base64(bytes), R"("}],"bufferViews":[)", views,
-                       R"(],"accessors":[)", accessors, "],", rest, "}");
+                       R"(,"uri":"data:application/octet-stream;base64,)", base64(bytes),
+                       R"("}],"bufferViews":[)", views, R"(],"accessors":[)", accessors, "],", rest, "}");
     }
 };
 
@@ -67,7 +70,8 @@ std::string one_mesh(const std::string& primitive, const std::string& rest = ONE
 class Gltf : public testing::Test {
 protected:
     Gltf() {
-        folder_ = fs::temp_directory_path() / (std::string("burnish_gltf_") + testing::UnitTest::GetInstance()->current_test_info()->name());
+        folder_ = fs::temp_directory_path() / (std::string("burnish_gltf_") +
+                                               testing::UnitTest::GetInstance()->current_test_info()->name());
         fs::create_directories(folder_);
     }
     ~Gltf() override { fs::remove_all(folder_); }
@@ -102,8 +106,9 @@ TEST_F(Gltf, ReadsEveryIndexTypeAndNone) {
                                   : file.view<uint32_t>({0, 1, 2, 0, 2, 3});
         int normals = file.floats({0, 0, 2, 0, 0, 1, 0, 0, 1, 0, 0, 1}, "VEC3", 3);
         int indices = file.accessor(view, type, 6, "SCALAR");
-        Scene scene = load(file.json(one_mesh(message(R"({"attributes":{"POSITION":)", positions, R"(,"NORMAL":)", normals,
-                                                      R"(},"indices":)", indices, "}"))));
+        Scene scene =
+            load(file.json(one_mesh(message(R"({"attributes":{"POSITION":)", positions, R"(,"NORMAL":)",
+                                            normals, R"(},"indices":)", indices, "}"))));
         EXPECT_EQ(scene.meshes.at(0).indices, expected);
         EXPECT_EQ(scene.meshes[0].normals[0], glm::vec3(0, 0, 1)); // made unit
     }
@@ -127,7 +132,8 @@ TEST_F(Gltf, TurnsStripsAndFansIntoTriangles) {
     for (const Mesh& mesh : scene.meshes)
         for (const glm::vec3& normal : mesh.normals)
             EXPECT_EQ(normal, glm::vec3(0, 0, 1)); // every triangle faces the same way
-    EXPECT_EQ(scene.warnings, std::vector<std::string>{"meshes[0].primitives[2]: points and lines are not drawn"});
+    EXPECT_EQ(scene.warnings,
+              std::vector<std::string>{"meshes[0].primitives[2]: points and lines are not drawn"});
     EXPECT_EQ(scene.objects[0].name, "node.0.0");
 }
 
@@ -136,10 +142,14 @@ TEST_F(Gltf, ReadsSparseStridedAndNormalizedData) {
     int at = file.view<uint16_t>({1, 2});
     int values = file.view<float>({5, 0, 0, 0, 5, 0});
     int positions = file.accessor(-1, 5126, 3, "VEC3",
-                                  message(R"(,"sparse":{"count":2,"indices":{"bufferView":)", at, R"(,"componentType":5123},"values":{"bufferView":)", values, "}}"));
-    int uv = file.accessor(file.view<uint8_t>({0, 255, 9, 9, 51, 102, 9, 9, 255, 0, 9, 9}, 4), 5121, 3, "VEC2", R"(,"normalized":true)");
-    int color = file.accessor(file.view<uint16_t>({65535, 0, 0, 0, 65535, 0, 0, 0, 65535}), 5123, 3, "VEC3", R"(,"normalized":true)");
-    Scene scene = load(file.json(one_mesh(message(R"({"attributes":{"POSITION":)", positions, R"(,"TEXCOORD_0":)", uv, R"(,"COLOR_0":)", color, "}}"))));
+                                  message(R"(,"sparse":{"count":2,"indices":{"bufferView":)", at,
+                                          R"(,"componentType":5123},"values":{"bufferView":)", values, "}}"));
+    int uv = file.accessor(file.view<uint8_t>({0, 255, 9, 9, 51, 102, 9, 9, 255, 0, 9, 9}, 4), 5121, 3,
+                           "VEC2", R"(,"normalized":true)");
+    int color = file.accessor(file.view<uint16_t>({65535, 0, 0, 0, 65535, 0, 0, 0, 65535}), 5123, 3, "VEC3",
+                              R"(,"normalized":true)");
+    Scene scene = load(file.json(one_mesh(message(R"({"attributes":{"POSITION":)", positions,
+                                                  R"(,"TEXCOORD_0":)", uv, R"(,"COLOR_0":)", color, "}}"))));
     const Mesh& mesh = scene.meshes.at(0);
     EXPECT_EQ(mesh.positions, (std::vector<glm::vec3>{{0, 0, 0}, {5, 0, 0}, {0, 5, 0}}));
     EXPECT_EQ(mesh.uv0, (std::vector<glm::vec2>{{0, 1}, {0.2f, 0.4f}, {1, 0}}));
@@ -149,10 +159,14 @@ TEST_F(Gltf, ReadsSparseStridedAndNormalizedData) {
 
 TEST_F(Gltf, TakesQuantizedPositionsOnlyWhereListed) {
     Builder file;
-    int positions = file.accessor(file.view<int16_t>({-32768, 0, 0, 0, 32767, 0, 0, 0, 0, 16384, 0, 0}, 8), 5122, 3, "VEC3", R"(,"normalized":true)");
+    int positions = file.accessor(file.view<int16_t>({-32768, 0, 0, 0, 32767, 0, 0, 0, 0, 16384, 0, 0}, 8),
+                                  5122, 3, "VEC3", R"(,"normalized":true)");
     std::string body = one_mesh(message(R"({"attributes":{"POSITION":)", positions, "}}"));
-    EXPECT_EQ(error(file.json(body)), "meshes[0].primitives[0].POSITION: expected 32-bit floats, got component type 5122");
-    Scene scene = load(file.json(body + R"(,"extensionsUsed":["KHR_mesh_quantization"],"extensionsRequired":["KHR_mesh_quantization"])"));
+    EXPECT_EQ(error(file.json(body)),
+              "meshes[0].primitives[0].POSITION: expected 32-bit floats, got component type 5122");
+    Scene scene = load(file.json(
+        body +
+        R"(,"extensionsUsed":["KHR_mesh_quantization"],"extensionsRequired":["KHR_mesh_quantization"])"));
     EXPECT_EQ(scene.meshes.at(0).positions[0].x, -1.0f);
     EXPECT_EQ(scene.meshes[0].positions[1].x, 1.0f);
 }
@@ -169,10 +183,11 @@ TEST_F(Gltf, FlattensNodesAndRemovesScaleFromCameras) {
     ASSERT_EQ(scene.objects.size(), 2u);
     EXPECT_EQ(scene.objects[0].name, "a");
     EXPECT_EQ(scene.objects[1].name, "a.1");
-    EXPECT_EQ(scene.objects[0].mesh, scene.objects[1].mesh); // shared
+    EXPECT_EQ(scene.objects[0].mesh, scene.objects[1].mesh);               // shared
     EXPECT_LT(glm::determinant(scene.objects[1].world_from_object), 0.0f); // mirrored, as the file says
     glm::vec3 x(scene.objects[1].world_from_object * glm::vec4(1, 0, 0, 1));
-    EXPECT_NEAR(glm::length(x - glm::vec3(1, 2, 5)), 0.0f, 1e-5f); // (-2, 0, 0) turned 90 degrees about y, then moved
+    EXPECT_NEAR(glm::length(x - glm::vec3(1, 2, 5)), 0.0f,
+                1e-5f); // (-2, 0, 0) turned 90 degrees about y, then moved
     ASSERT_EQ(scene.cameras.size(), 2u);
     EXPECT_EQ(scene.cameras[0].world_from_camera[3], glm::vec4(1, 2, 8, 1));
     EXPECT_NEAR(glm::length(scene.cameras[0].world_from_camera[0]), 1.0f, 1e-6f);
@@ -181,9 +196,12 @@ TEST_F(Gltf, FlattensNodesAndRemovesScaleFromCameras) {
 
 TEST_F(Gltf, RefusesNodesThatAreNoTree) {
     const std::string head = R"({"asset":{"version":"2.0"},"nodes":)";
-    EXPECT_EQ(error(head + R"([{"children":[1]},{"children":[0]}]})"), "nodes[0]: expected a tree, got a node among its own descendants");
-    EXPECT_EQ(error(head + R"([{"children":[2]},{"children":[2]},{}]})"), "nodes[2]: expected one parent, got nodes[0] and nodes[1]");
-    EXPECT_EQ(error(head + R"([{"children":[7]}]})"), "nodes[0].children[0]: expected an index below 1 nodes, got 7");
+    EXPECT_EQ(error(head + R"([{"children":[1]},{"children":[0]}]})"),
+              "nodes[0]: expected a tree, got a node among its own descendants");
+    EXPECT_EQ(error(head + R"([{"children":[2]},{"children":[2]},{}]})"),
+              "nodes[2]: expected one parent, got nodes[0] and nodes[1]");
+    EXPECT_EQ(error(head + R"([{"children":[7]}]})"),
+              "nodes[0].children[0]: expected an index below 1 nodes, got 7");
     // A chain longer than any stack frame budget is still a tree.
     std::string chain = "[";
     for (int i = 1; i < 50000; ++i)
@@ -201,9 +219,9 @@ TEST_F(Gltf, ReadsMaterialsAndTheirExtensions) {
                "KHR_materials_specular":{"specularFactor":0.5,"specularColorFactor":[1,2,3]},
                "KHR_materials_clearcoat":{"clearcoatFactor":1,"clearcoatRoughnessFactor":0.5},
                "KHR_materials_anisotropy":{"anisotropyStrength":0.5,"anisotropyRotation":1}}},
-            {"extensions":{"KHR_materials_unlit":{}},"pbrMetallicRoughness":{"baseColorFactor":[0.5,0.25,1,1]}}],)"
-        + one_mesh(message(R"({"material":0,"attributes":{"POSITION":)", positions, R"(},"mode":6})"))
-        + R"(,"extensionsUsed":["KHR_materials_sheen","KHR_materials_ior","VENDOR_x"])"));
+            {"extensions":{"KHR_materials_unlit":{}},"pbrMetallicRoughness":{"baseColorFactor":[0.5,0.25,1,1]}}],)" +
+        one_mesh(message(R"({"material":0,"attributes":{"POSITION":)", positions, R"(},"mode":6})")) +
+        R"(,"extensionsUsed":["KHR_materials_sheen","KHR_materials_ior","VENDOR_x"])"));
     const Material& material = scene.materials.at(0);
     EXPECT_EQ(material.emissive, glm::vec3(4, 2, 0));
     EXPECT_EQ(material.alpha_mode, AlphaMode::mask);
@@ -228,9 +246,11 @@ TEST_F(Gltf, SharesAMaterialBetweenColoredAndPlainMeshes) {
     Builder file;
     int positions = file.floats(SQUARE, "VEC3", 3);
     int colors = file.floats(std::vector<float>(16, 0.5f), "VEC4", 4);
-    Scene scene = load(file.json(R"("materials":[{"name":"m"}],)"
-                                 + one_mesh(message(R"({"material":0,"mode":6,"attributes":{"POSITION":)", positions, R"(,"COLOR_0":)", colors,
-                                                    R"(}},{"material":0,"mode":6,"attributes":{"POSITION":)", positions, "}}"))));
+    Scene scene = load(file.json(
+        R"("materials":[{"name":"m"}],)" +
+        one_mesh(message(R"({"material":0,"mode":6,"attributes":{"POSITION":)", positions, R"(,"COLOR_0":)",
+                         colors, R"(}},{"material":0,"mode":6,"attributes":{"POSITION":)", positions,
+                         "}}"))));
     ASSERT_EQ(scene.materials.size(), 2u);
     EXPECT_TRUE(scene.materials[scene.objects[0].material].source->has_vertex_color);
     EXPECT_FALSE(scene.materials[scene.objects[1].material].source->has_vertex_color);
@@ -238,14 +258,17 @@ TEST_F(Gltf, SharesAMaterialBetweenColoredAndPlainMeshes) {
 
 TEST_F(Gltf, NamesWhatItCannotRead) {
     const std::string head = R"({"asset":{"version":"2.0"},)";
-    EXPECT_EQ(error(head + R"("extensionsRequired":["KHR_draco_mesh_compression","KHR_materials_ior","X"]})"),
-              "extensionsRequired: expected only extensions Burnish knows, got KHR_draco_mesh_compression, X");
+    EXPECT_EQ(
+        error(head + R"("extensionsRequired":["KHR_draco_mesh_compression","KHR_materials_ior","X"]})"),
+        "extensionsRequired: expected only extensions Burnish knows, got KHR_draco_mesh_compression, X");
     EXPECT_EQ(error(R"({"asset":{"version":"1.0"}})"), "asset.version: expected 2.x, got \"1.0\"");
     EXPECT_EQ(error(head + R"("materials":[{"pbrMetallicRoughness":{"metallicFactor":"much"}}]})"),
               "materials[0].pbrMetallicRoughness.metallicFactor: expected a finite number, got \"much\"");
-    EXPECT_EQ(error(head + R"("buffers":[{"byteLength":4,"uri":"gone.bin"}]})"), "buffers[0] \"gone.bin\": no such file");
-    EXPECT_EQ(error(head + R"("buffers":[{"byteLength":4,"uri":"%2e%2e/secret.bin"}]})"),
-              "buffers[0] \"%2e%2e/secret.bin\": expected a file in or below the scene's folder, got one outside");
+    EXPECT_EQ(error(head + R"("buffers":[{"byteLength":4,"uri":"gone.bin"}]})"),
+              "buffers[0] \"gone.bin\": no such file");
+    EXPECT_EQ(
+        error(head + R"("buffers":[{"byteLength":4,"uri":"%2e%2e/secret.bin"}]})"),
+        "buffers[0] \"%2e%2e/secret.bin\": expected a file in or below the scene's folder, got one outside");
     EXPECT_EQ(error(head + R"("buffers":[{"byteLength":4,"uri":"/etc/passwd"}]})"),
               "buffers[0] \"/etc/passwd\": expected a file in or below the scene's folder, got one outside");
     EXPECT_EQ(error(head + R"("buffers":[{"byteLength":9,"uri":"data:;base64,AAAA"}]})"),
@@ -263,20 +286,26 @@ TEST_F(Gltf, ChecksRangesBeforeItTouchesMemory) {
     int many = file.accessor(0, 5126, 2147483647, "VEC3");
     int zeros = file.accessor(-1, 5126, 2147483647, "VEC3");
     int indices = file.accessor(file.view<uint8_t>({0, 1, 9}), 5121, 3, "SCALAR");
-    auto with = [&](int accessor) { return error(file.json(one_mesh(message(R"({"attributes":{"POSITION":)", accessor, "}}")))); };
-    EXPECT_EQ(with(far), "meshes[0].primitives[0].POSITION: expected data within bufferViews[0] of 48 bytes, got 2147483688");
+    auto with = [&](int accessor) {
+        return error(file.json(one_mesh(message(R"({"attributes":{"POSITION":)", accessor, "}}"))));
+    };
+    EXPECT_EQ(
+        with(far),
+        "meshes[0].primitives[0].POSITION: expected data within bufferViews[0] of 48 bytes, got 2147483688");
     EXPECT_NE(with(many).find("expected all meshes to take at most"), std::string::npos);
     EXPECT_NE(with(zeros).find("expected all meshes to take at most"), std::string::npos);
-    EXPECT_EQ(with(indices), "meshes[0].primitives[0].POSITION: expected 32-bit floats, got component type 5121");
-    EXPECT_EQ(error(file.json(one_mesh(message(R"({"attributes":{"POSITION":)", positions, R"(},"indices":)", indices, "}")))),
+    EXPECT_EQ(with(indices),
+              "meshes[0].primitives[0].POSITION: expected 32-bit floats, got component type 5121");
+    EXPECT_EQ(error(file.json(one_mesh(
+                  message(R"({"attributes":{"POSITION":)", positions, R"(},"indices":)", indices, "}")))),
               "meshes[0].primitives[0].indices: expected each below the vertex count 4, got 9");
 }
 
 TEST_F(Gltf, ReadsBinaryContainers) {
     Builder file;
     int positions = file.floats({0, 0, 0, 1, 0, 0, 0, 1, 0}, "VEC3", 3);
-    std::string json = message(R"({"asset":{"version":"2.0"},"buffers":[{"byteLength":36}],"bufferViews":[)", file.views,
-                               R"(],"accessors":[)", file.accessors, "],",
+    std::string json = message(R"({"asset":{"version":"2.0"},"buffers":[{"byteLength":36}],"bufferViews":[)",
+                               file.views, R"(],"accessors":[)", file.accessors, "],",
                                one_mesh(message(R"({"attributes":{"POSITION":)", positions, "}}")), "}");
     json.resize((json.size() + 3) / 4 * 4, ' ');
     auto word = [](size_t value) {
@@ -284,14 +313,16 @@ TEST_F(Gltf, ReadsBinaryContainers) {
         return std::string(reinterpret_cast<const char*>(&bits), 4);
     };
     std::string binary(file.bytes.begin(), file.bytes.end());
-    std::string body = word(json.size()) + "JSON" + json + word(binary.size()) + std::string("BIN\0", 4) + binary
-                       + word(4) + "WHAT" + "abcd"; // an unknown chunk is skipped
+    std::string body = word(json.size()) + "JSON" + json + word(binary.size()) + std::string("BIN\0", 4) +
+                       binary + word(4) + "WHAT" + "abcd"; // an unknown chunk is skipped
     std::string glb = "glTF" + word(2) + word(12 + body.size()) + body;
     EXPECT_EQ(load(glb).meshes.at(0).positions.size(), 3u);
-    EXPECT_EQ(error("glTF" + word(2) + word(500 + body.size()) + body),
-              message("GLB length: expected at most the file's ", glb.size(), " bytes, got ", 500 + body.size()));
+    EXPECT_EQ(
+        error("glTF" + word(2) + word(500 + body.size()) + body),
+        message("GLB length: expected at most the file's ", glb.size(), " bytes, got ", 500 + body.size()));
     glb[12] = '\xff', glb[13] = '\xff', glb[14] = '\xff', glb[15] = '\xff';
-    EXPECT_EQ(error(glb), message("GLB chunk: expected at most the remaining ", glb.size() - 20, " bytes, got 4294967295"));
+    EXPECT_EQ(error(glb), message("GLB chunk: expected at most the remaining ", glb.size() - 20,
+                                  " bytes, got 4294967295"));
 }
 
 } // namespace

@@ -12,7 +12,8 @@
 namespace burnish {
 namespace {
 
-template <typename Action> std::string message_of(const Action& action) {
+template <typename Action>
+std::string message_of(const Action& action) {
     try {
         action();
     } catch (const std::invalid_argument& error) {
@@ -32,8 +33,10 @@ void expect_well_formed(const Mesh& mesh) {
     for (size_t i = 0; i < mesh.indices.size(); i += 3) {
         glm::vec3 normal = face_cross(mesh, i);
         ASSERT_GT(glm::length(normal), 0.0f) << mesh.name << " triangle " << i / 3;
-        glm::vec3 mean = mesh.normals[mesh.indices[i]] + mesh.normals[mesh.indices[i + 1]] + mesh.normals[mesh.indices[i + 2]];
-        ASSERT_GT(glm::dot(glm::normalize(normal), glm::normalize(mean)), 0.8f) << mesh.name << " triangle " << i / 3;
+        glm::vec3 mean = mesh.normals[mesh.indices[i]] + mesh.normals[mesh.indices[i + 1]] +
+                         mesh.normals[mesh.indices[i + 2]];
+        ASSERT_GT(glm::dot(glm::normalize(normal), glm::normalize(mean)), 0.8f)
+            << mesh.name << " triangle " << i / 3;
     }
     ASSERT_EQ(mesh.tangents.size(), mesh.positions.size());
     for (size_t i = 0; i < mesh.positions.size(); ++i) {
@@ -90,7 +93,8 @@ TEST(Mesh, ValidateNamesTheArray) {
     EXPECT_EQ(message_of([&] { validate(mesh); }), "indices: expected each below the vertex count 4, got 9");
     mesh = make_quad();
     mesh.positions[1].y = std::numeric_limits<float>::infinity();
-    EXPECT_EQ(message_of([&] { validate(mesh); }), "positions: expected finite numbers, got a non-finite one at 1");
+    EXPECT_EQ(message_of([&] { validate(mesh); }),
+              "positions: expected finite numbers, got a non-finite one at 1");
     mesh = make_quad();
     mesh.uv0.pop_back();
     EXPECT_EQ(message_of([&] { validate(mesh); }), "uv0: expected as many as positions (4), got 3");
@@ -153,9 +157,11 @@ TEST(Tangents, AreWeightedByAngleNotByArea) {
     mesh.uv0 = {{0, 0}, {1, 0}, {0, -1}, {-10, 0}};
     mesh.indices = {0, 1, 2, 0, 2, 3};
     compute_tangents(mesh, 0);
-    // dP/du is (1, 0) on the first; on the second (0, 1) has uv (0, -1) and (-10, 10) has uv (-10, 0): (1, -1).
+    // dP/du is (1, 0) on the first; on the second (0, 1) has uv (0, -1) and (-10, 10) has uv (-10, 0): (1,
+    // -1).
     glm::vec2 second = glm::normalize(glm::vec2(1, -1));
-    glm::vec2 expected = glm::normalize(glm::vec2(1, 0) * glm::half_pi<float>() + second * glm::quarter_pi<float>());
+    glm::vec2 expected =
+        glm::normalize(glm::vec2(1, 0) * glm::half_pi<float>() + second * glm::quarter_pi<float>());
     EXPECT_NEAR(mesh.tangents[0].x, expected.x, 1e-5f);
     EXPECT_NEAR(mesh.tangents[0].y, expected.y, 1e-5f);
 }
@@ -183,7 +189,8 @@ TEST(Tangents, MatchThoseOfTheBuiltInSphere) {
     compute_tangents(derived, 0);
     size_t compared = 0;
     for (size_t corner = 0; corner < mesh.indices.size(); ++corner) {
-        glm::vec4 given = mesh.tangents[mesh.indices[corner]], found = derived.tangents[derived.indices[corner]];
+        glm::vec4 given = mesh.tangents[mesh.indices[corner]],
+                  found = derived.tangents[derived.indices[corner]];
         if (std::abs(mesh.positions[mesh.indices[corner]].y) > 0.95f) continue;
         ++compared;
         ASSERT_GT(glm::dot(glm::vec3(given), glm::vec3(found)), 0.995f) << corner;
@@ -199,7 +206,8 @@ TEST(Tangents, AroundYFollowLongitude) {
     for (size_t i = 0; i < mesh.positions.size(); ++i) {
         ASSERT_NEAR(glm::length(glm::vec3(derived.tangents[i])), 1.0f, 1e-5f) << i;
         if (std::abs(mesh.positions[i].y) < 0.99f) {
-            ASSERT_NEAR(glm::dot(glm::vec3(derived.tangents[i]), glm::vec3(mesh.tangents[i])), 1.0f, 1e-5f) << i;
+            ASSERT_NEAR(glm::dot(glm::vec3(derived.tangents[i]), glm::vec3(mesh.tangents[i])), 1.0f, 1e-5f)
+                << i;
         }
     }
 }
@@ -210,7 +218,8 @@ TEST(Tangents, NeedTextureCoordinates) {
 }
 
 TEST(Material, RangesAreNamed) {
-    EXPECT_EQ(message_of([] { validate(KurtLobe{.roughness = glm::vec2(0.0f)}); }), "roughness: expected 0.001..1, got 0");
+    EXPECT_EQ(message_of([] { validate(KurtLobe{.roughness = glm::vec2(0.0f)}); }),
+              "roughness: expected 0.001..1, got 0");
     Material material;
     material.lobes.resize(2);
     material.lobes[1].alpha = 1.5f;
@@ -223,26 +232,30 @@ TEST(Material, RangesAreNamed) {
 }
 
 TEST(Material, MetalKeepsItsColorAndPlasticItsDiffuse) {
-    MappedSurface metal = map_metallic_roughness({.base = {1.0f, 0.7f, 0.3f}, .metallic = 1.0f, .roughness = 0.5f});
+    MappedSurface metal =
+        map_metallic_roughness({.base = {1.0f, 0.7f, 0.3f}, .metallic = 1.0f, .roughness = 0.5f});
     EXPECT_EQ(metal.diffuse, glm::vec3(0.0f));
     EXPECT_EQ(metal.r0, glm::vec3(1.0f, 0.7f, 0.3f));
     EXPECT_EQ(metal.weight, 1.0f);
     EXPECT_EQ(metal.roughness, glm::vec2(0.25f));
-    MappedSurface plastic = map_metallic_roughness({.base = glm::vec3(0.5f), .metallic = 0.0f, .roughness = 0.0f});
+    MappedSurface plastic =
+        map_metallic_roughness({.base = glm::vec3(0.5f), .metallic = 0.0f, .roughness = 0.0f});
     EXPECT_NEAR(plastic.r0.x, 0.04f, 1e-6f);
     EXPECT_NEAR(plastic.diffuse.x, 0.48f, 1e-6f);
     EXPECT_EQ(plastic.roughness.x, MIN_ROUGHNESS);
 }
 
 TEST(Material, SpecularScalesBothEndsOfFresnel) {
-    MappedSurface half = map_metallic_roughness({.metallic = 0.0f, .specular = 0.5f, .specular_color = {1, 2, 100}});
+    MappedSurface half =
+        map_metallic_roughness({.metallic = 0.0f, .specular = 0.5f, .specular_color = {1, 2, 100}});
     EXPECT_NEAR(half.weight, 0.5f, 1e-6f);
     EXPECT_NEAR(half.weight * half.r0.x, 0.02f, 1e-6f); // specular * 0.04
     EXPECT_NEAR(half.weight * half.r0.y, 0.04f, 1e-6f);
     EXPECT_NEAR(half.r0.z, 1.0f, 1e-6f); // clamped
     EXPECT_NEAR(half.diffuse.x, 0.5f, 1e-6f);
     EXPECT_EQ(map_metallic_roughness({.metallic = 0.0f, .specular = 0.0f}).weight, 0.0f);
-    EXPECT_NEAR(map_metallic_roughness({.metallic = 0.0f, .ior = 0.0f}).r0.x, 1.0f, 1e-6f); // KHR_materials_ior
+    EXPECT_NEAR(map_metallic_roughness({.metallic = 0.0f, .ior = 0.0f}).r0.x, 1.0f,
+                1e-6f); // KHR_materials_ior
     MappedSurface brushed = map_metallic_roughness({.roughness = 0.5f, .anisotropy = 0.5f});
     EXPECT_NEAR(brushed.roughness.x, 0.25f + 0.75f * 0.25f, 1e-6f);
     EXPECT_EQ(brushed.roughness.y, 0.25f);
@@ -266,17 +279,23 @@ TEST(Camera, LooksAtItsTarget) {
     EXPECT_EQ(glm::vec3(camera.world_from_camera * glm::vec4(0, 0, -3, 1)), glm::vec3(4, 2, 3));
     EXPECT_EQ(glm::vec3(camera.world_from_camera[1]), glm::vec3(0, 1, 0));
     validate(camera);
-    EXPECT_EQ(message_of([] { look_at({0, 0, 0}, {0, 0, 0}, {0, 1, 0}); }),
+    EXPECT_EQ(message_of([] {
+                  look_at({0, 0, 0}, {0, 0, 0}, {0, 1, 0});
+              }),
               "target: expected a point other than eye, got the same point");
-    EXPECT_EQ(message_of([] { look_at({0, 0, 0}, {0, 3, 0}, {0, 1, 0}); }),
+    EXPECT_EQ(message_of([] {
+                  look_at({0, 0, 0}, {0, 3, 0}, {0, 1, 0});
+              }),
               "up: expected a direction across the view, got one along it or zero");
     camera.vertical_fov = 4.0f;
-    EXPECT_EQ(message_of([&] { validate(camera); }), "vertical_fov: expected radians between 0 and pi, got 4");
+    EXPECT_EQ(message_of([&] { validate(camera); }),
+              "vertical_fov: expected radians between 0 and pi, got 4");
 }
 
 TEST(Scene, DefaultCameraSeesEverything) {
     Material material;
-    std::vector<Scene> scenes = {Scene::sphere(material), Scene::plane(material), Scene::shader_ball(material, material),
+    std::vector<Scene> scenes = {Scene::sphere(material), Scene::plane(material),
+                                 Scene::shader_ball(material, material),
                                  Scene::spheres(std::vector<Material>(11, material), 4)};
     scenes.push_back(scenes[0]);
     scenes.back().objects[0].world_from_object = glm::mat4(1e-4f); // eight hundredths of a millimetre

@@ -23,9 +23,13 @@ Scene single(const char* name, Mesh mesh, const Material& material) {
 
 } // namespace
 
-Scene Scene::sphere(const Material& material) { return single("sphere", make_sphere(1.0f, SPHERE_SEGMENTS), material); }
+Scene Scene::sphere(const Material& material) {
+    return single("sphere", make_sphere(1.0f, SPHERE_SEGMENTS), material);
+}
 
-Scene Scene::plane(const Material& material) { return single("plane", make_plane(2.0f, 1), material); }
+Scene Scene::plane(const Material& material) {
+    return single("plane", make_plane(2.0f, 1), material);
+}
 
 Scene Scene::spheres(const std::vector<Material>& materials, uint32_t columns) {
     if (materials.empty()) throw std::invalid_argument("materials: expected at least one, got none");
@@ -40,9 +44,10 @@ Scene Scene::spheres(const std::vector<Material>& materials, uint32_t columns) {
         scene.materials.push_back(materials[i]);
         float x = static_cast<float>(i % columns) - 0.5f * static_cast<float>(used_columns - 1);
         float y = 0.5f * static_cast<float>(rows - 1) - static_cast<float>(i / columns);
-        scene.objects.push_back({.name = message("sphere.", i),
-                                 .material = i,
-                                 .world_from_object = glm::translate(glm::mat4(1.0f), SPHERE_SPACING * glm::vec3(x, y, 0))});
+        scene.objects.push_back(
+            {.name = message("sphere.", i),
+             .material = i,
+             .world_from_object = glm::translate(glm::mat4(1.0f), SPHERE_SPACING * glm::vec3(x, y, 0))});
     }
     return scene;
 }

@@ -30,9 +30,15 @@ inline void require_positive(const std::string& name, float value) {
         throw std::invalid_argument(message(name, ": expected a finite number > 0, got ", value));
 }
 
-inline bool is_finite(const glm::vec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
-inline bool is_finite(const glm::vec2& v) { return std::isfinite(v.x) && std::isfinite(v.y); }
-inline bool is_finite(const glm::vec4& v) { return is_finite(glm::vec3(v)) && std::isfinite(v.w); }
+inline bool is_finite(const glm::vec3& v) {
+    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
+inline bool is_finite(const glm::vec2& v) {
+    return std::isfinite(v.x) && std::isfinite(v.y);
+}
+inline bool is_finite(const glm::vec4& v) {
+    return is_finite(glm::vec3(v)) && std::isfinite(v.w);
+}
 inline bool is_finite(const glm::mat4& m) {
     return is_finite(m[0]) && is_finite(m[1]) && is_finite(m[2]) && is_finite(m[3]);
 }

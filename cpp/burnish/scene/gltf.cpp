@@ -30,7 +30,8 @@ glm::dmat4 local_transform(const tinygltf::Node& node) {
     if (node.scale.size() == 3)
         for (int column = 0; column < 3; ++column)
             matrix[column] *= node.scale[column];
-    if (node.translation.size() == 3) matrix[3] = {node.translation[0], node.translation[1], node.translation[2], 1.0};
+    if (node.translation.size() == 3)
+        matrix[3] = {node.translation[0], node.translation[1], node.translation[2], 1.0};
     return matrix;
 }
 
@@ -64,8 +65,9 @@ private:
         for (size_t i = 0; i < nodes.size(); ++i) {
             for (int child : nodes[i].children) {
                 if (parent[child] != -1)
-                    throw FileError(document_.path, message("nodes[", child, "]: expected one parent, got nodes[",
-                                                            parent[child], "] and nodes[", i, "]"));
+                    throw FileError(document_.path,
+                                    message("nodes[", child, "]: expected one parent, got nodes[",
+                                            parent[child], "] and nodes[", i, "]"));
                 parent[child] = static_cast<int>(i);
             }
         }
@@ -75,12 +77,15 @@ private:
             if (parent[i] == -1) reached.push_back(static_cast<int>(i));
         roots_ = reached;
         for (size_t i = 0; i < reached.size(); ++i)
-            reached.insert(reached.end(), nodes[reached[i]].children.begin(), nodes[reached[i]].children.end());
+            reached.insert(reached.end(), nodes[reached[i]].children.begin(),
+                           nodes[reached[i]].children.end());
         if (reached.size() == nodes.size()) return;
         std::set<int> outside(reached.begin(), reached.end());
         for (size_t i = 0; i < nodes.size(); ++i)
             if (!outside.count(static_cast<int>(i)))
-                throw FileError(document_.path, message("nodes[", i, "]: expected a tree, got a node among its own descendants"));
+                throw FileError(
+                    document_.path,
+                    message("nodes[", i, "]: expected a tree, got a node among its own descendants"));
     }
 
     std::vector<int> roots() {
@@ -91,7 +96,8 @@ private:
         std::set<int> seen;
         for (int root : chosen.nodes)
             if (!seen.insert(root).second || !std::count(roots_.begin(), roots_.end(), root))
-                throw FileError(document_.path, message("scenes.nodes: expected each root node once, got nodes[", root, "]"));
+                throw FileError(document_.path,
+                                message("scenes.nodes: expected each root node once, got nodes[", root, "]"));
         return chosen.nodes;
     }
 
@@ -104,8 +110,11 @@ private:
             const tinygltf::Node& node = document_.model.nodes[index];
             glm::dmat4 world_from_node = world_from_parent * local_transform(node);
             glm::mat4 rounded(world_from_node);
-            if (!is_finite(rounded) || rounded[0].w != 0.0f || rounded[1].w != 0.0f || rounded[2].w != 0.0f || rounded[3].w != 1.0f)
-                throw FileError(document_.path, message("nodes[", index, "]: expected a finite affine transform, got another"));
+            if (!is_finite(rounded) || rounded[0].w != 0.0f || rounded[1].w != 0.0f || rounded[2].w != 0.0f ||
+                rounded[3].w != 1.0f)
+                throw FileError(
+                    document_.path,
+                    message("nodes[", index, "]: expected a finite affine transform, got another"));
             if (node.mesh >= 0) add_objects(index, rounded);
             if (node.camera >= 0) add_camera(index, world_from_node);
             for (auto child = node.children.rbegin(); child != node.children.rend(); ++child)
@@ -118,7 +127,8 @@ private:
         std::string name = node_name(index);
         for (size_t i = 0; i < parts.size(); ++i) {
             if (scene_.objects.size() >= MAX_OBJECTS)
-                throw FileError(document_.path, message("nodes: expected at most ", MAX_OBJECTS, " objects, got more"));
+                throw FileError(document_.path,
+                                message("nodes: expected at most ", MAX_OBJECTS, " objects, got more"));
             scene_.objects.push_back({.name = parts.size() == 1 ? name : message(name, ".", i),
                                       .mesh = parts[i].mesh,
                                       .material = parts[i].material,
@@ -134,7 +144,8 @@ private:
         const tinygltf::Mesh& from = document_.model.meshes[mesh_index];
         for (size_t i = 0; i < from.primitives.size(); ++i) {
             std::string where = message("meshes[", mesh_index, "].primitives[", i, "]");
-            std::optional<Mesh> mesh = load_primitive(document_, reader_, from.primitives[i], where, scene_.warnings);
+            std::optional<Mesh> mesh =
+                load_primitive(document_, reader_, from.primitives[i], where, scene_.warnings);
             if (!mesh) continue;
             uint32_t material = materials_.find(from.primitives[i].material, !mesh->colors.empty());
             complete_mesh(*mesh, scene_.materials[material], reader_, where, scene_.warnings);
@@ -150,7 +161,8 @@ private:
         const tinygltf::Camera& from = document_.model.cameras[document_.model.nodes[index].camera];
         std::string where = message("nodes[", index, "].camera");
         Camera camera;
-        camera.name = !document_.model.nodes[index].name.empty() || from.name.empty() ? node_name(index) : from.name;
+        camera.name =
+            !document_.model.nodes[index].name.empty() || from.name.empty() ? node_name(index) : from.name;
         // glTF: a camera's view is not scaled with its node. What is left of the axes is made orthogonal.
         glm::dvec3 backward(world_from_node[2]), up(world_from_node[1]);
         if (!(glm::length(backward) > 0.0)) {
@@ -160,7 +172,8 @@ private:
         try {
             glm::dvec3 eye(world_from_node[3]);
             camera.world_from_camera =
-                look_at(glm::vec3(0.0f), glm::vec3(-glm::normalize(backward)), glm::vec3(up)).world_from_camera;
+                look_at(glm::vec3(0.0f), glm::vec3(-glm::normalize(backward)), glm::vec3(up))
+                    .world_from_camera;
             camera.world_from_camera[3] = glm::vec4(glm::vec3(eye), 1.0f);
             camera.is_orthographic = from.type == "orthographic";
             if (camera.is_orthographic) {

@@ -1,4 +1,5 @@
-// Reading numbers through accessor -> bufferView -> buffer, every range checked in 64 bits before memory is touched.
+// Reading numbers through accessor -> bufferView -> buffer, every range checked in 64 bits before memory is
+// touched.
 #pragma once
 
 #include <cstdint>
@@ -21,7 +22,8 @@ public:
     uint32_t components(int accessor) const;
 
     /// Numbers as floats, integers normalized where the accessor says so. `where` names the use in messages.
-    template <typename Vector> std::vector<Vector> read(int accessor, const std::string& where) {
+    template <typename Vector>
+    std::vector<Vector> read(int accessor, const std::string& where) {
         constexpr uint32_t COMPONENTS = sizeof(Vector) / sizeof(float);
         charge(count(accessor) * sizeof(Vector), where);
         std::vector<Vector> values(count(accessor));
@@ -44,10 +46,12 @@ private:
         const uint8_t* data = nullptr; ///< null: all zero
         size_t stride = 0;
     };
-    Elements elements(int view, uint64_t offset, uint64_t element_count, uint64_t element_size, bool is_strided,
-                      const std::string& where) const;
-    /// Calls visit_element(index, bytes) for every element of the buffer view, then for every sparse replacement.
-    template <typename Visit> void visit(int accessor, const std::string& where, const Visit& visit_element) const;
+    Elements elements(int view, uint64_t offset, uint64_t element_count, uint64_t element_size,
+                      bool is_strided, const std::string& where) const;
+    /// Calls visit_element(index, bytes) for every element of the buffer view, then for every sparse
+    /// replacement.
+    template <typename Visit>
+    void visit(int accessor, const std::string& where, const Visit& visit_element) const;
     void read_floats(int accessor, uint32_t component_count, float* values, const std::string& where) const;
 
     const Document& document_;

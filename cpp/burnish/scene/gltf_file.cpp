@@ -36,11 +36,13 @@ uint32_t read_uint32(const std::vector<uint8_t>& bytes, size_t at) {
 /// glTF 2.0, section 4.4: a 12-byte header, a JSON chunk, at most one BIN chunk, chunks of unknown type.
 Container split_glb(const std::string& path, std::vector<uint8_t> bytes) {
     constexpr uint32_t JSON_CHUNK = 0x4E4F534A, BIN_CHUNK = 0x004E4942;
-    if (bytes.size() < 20) throw FileError(path, message("GLB: expected at least 20 bytes, got ", bytes.size()));
+    if (bytes.size() < 20)
+        throw FileError(path, message("GLB: expected at least 20 bytes, got ", bytes.size()));
     uint32_t version = read_uint32(bytes, 4), length = read_uint32(bytes, 8);
     if (version != 2) throw FileError(path, message("GLB version: expected 2, got ", version));
     if (length > bytes.size())
-        throw FileError(path, message("GLB length: expected at most the file's ", bytes.size(), " bytes, got ", length));
+        throw FileError(
+            path, message("GLB length: expected at most the file's ", bytes.size(), " bytes, got ", length));
     Container container;
     size_t binary_begin = 0, binary_end = 0;
     bool has_json = false;
@@ -48,8 +50,10 @@ Container split_glb(const std::string& path, std::vector<uint8_t> bytes) {
         size_t size = read_uint32(bytes, at), begin = at + 8;
         uint32_t type = read_uint32(bytes, at + 4);
         if (size > length - begin)
-            throw FileError(path, message("GLB chunk: expected at most the remaining ", length - begin, " bytes, got ", size));
-        if (!has_json && type != JSON_CHUNK) throw FileError(path, "GLB: expected the first chunk to be JSON, got another");
+            throw FileError(path, message("GLB chunk: expected at most the remaining ", length - begin,
+                                          " bytes, got ", size));
+        if (!has_json && type != JSON_CHUNK)
+            throw FileError(path, "GLB: expected the first chunk to be JSON, got another");
         if (type == JSON_CHUNK && !has_json) {
             container.json.assign(bytes.begin() + begin, bytes.begin() + begin + size);
             has_json = true;
@@ -92,11 +96,14 @@ std::vector<uint8_t> decode_base64(std::string_view text) {
 }
 
 std::string decode_percent(const std::string& uri) {
-    auto hex = [](char c) { return std::isdigit(static_cast<unsigned char>(c)) ? c - '0' : (c | 32) - 'a' + 10; };
+    auto hex = [](char c) {
+        return std::isdigit(static_cast<unsigned char>(c)) ? c - '0' : (c | 32) - 'a' + 10;
+    };
     std::string text;
     for (size_t i = 0; i < uri.size(); ++i) {
-        bool is_escape = uri[i] == '%' && i + 2 < uri.size() && std::isxdigit(static_cast<unsigned char>(uri[i + 1]))
-                         && std::isxdigit(static_cast<unsigned char>(uri[i + 2]));
+        bool is_escape = uri[i] == '%' && i + 2 < uri.size() &&
+                         std::isxdigit(static_cast<unsigned char>(uri[i + 1])) &&
+                         std::isxdigit(static_cast<unsigned char>(uri[i + 2]));
         text += is_escape ? static_cast<char>(hex(uri[i + 1]) * 16 + hex(uri[i + 2])) : uri[i];
         if (is_escape) i += 2;
     }
@@ -105,7 +112,8 @@ std::string decode_percent(const std::string& uri) {
 
 /// A file may only refer to its own folder and what lies below.
 void require_inside(const std::string& name) {
-    if (name.find('\0') != std::string::npos) throw std::runtime_error("expected a file name, got one with a zero byte");
+    if (name.find('\0') != std::string::npos)
+        throw std::runtime_error("expected a file name, got one with a zero byte");
     size_t colon = name.find(':');
     if (colon != std::string::npos && colon < name.find('/'))
         throw std::runtime_error("expected a relative file name or base64 data, got another scheme");
@@ -122,8 +130,10 @@ Container read_container(const std::string& path) {
     } catch (const std::runtime_error& error) {
         throw FileError(path, error.what());
     }
-    if (bytes.size() >= 4 && std::memcmp(bytes.data(), "glTF", 4) == 0) return split_glb(path, std::move(bytes));
-    if (fs::path(path).extension() == ".glb") throw FileError(path, "GLB: expected a file that begins with glTF, got another");
+    if (bytes.size() >= 4 && std::memcmp(bytes.data(), "glTF", 4) == 0)
+        return split_glb(path, std::move(bytes));
+    if (fs::path(path).extension() == ".glb")
+        throw FileError(path, "GLB: expected a file that begins with glTF, got another");
     Container container;
     size_t mark = bytes.size() >= 3 && bytes[0] == 0xEF && bytes[1] == 0xBB && bytes[2] == 0xBF ? 3 : 0;
     container.json.assign(bytes.begin() + mark, bytes.end());
@@ -140,17 +150,20 @@ std::vector<uint8_t> read_uri(const fs::path& folder, const std::string& uri, ui
     if (uri.rfind("data:", 0) == 0) {
         constexpr std::string_view MARK = ";base64,";
         size_t mark = uri.find(MARK);
-        if (mark == std::string::npos || mark > 256) throw std::runtime_error("expected base64 data, got another encoding");
+        if (mark == std::string::npos || mark > 256)
+            throw std::runtime_error("expected base64 data, got another encoding");
         std::string_view data = std::string_view(uri).substr(mark + MARK.size());
         return decode_base64(data);
     }
     std::string name = decode_percent(uri);
     require_inside(name);
     require_inside(uri);
-    // Exporters leave characters undecoded as often as they escape them: a name may really contain a percent sign.
+    // Exporters leave characters undecoded as often as they escape them: a name may really contain a percent
+    // sign.
     fs::path decoded = folder / fs::path(name), verbatim = folder / fs::path(uri);
     std::error_code code;
-    return read_file(fs::exists(decoded, code) || !fs::exists(verbatim, code) ? decoded : verbatim, max_bytes);
+    return read_file(fs::exists(decoded, code) || !fs::exists(verbatim, code) ? decoded : verbatim,
+                     max_bytes);
 }
 
 void load_buffers(Document& document, Container& container) {
@@ -171,11 +184,13 @@ void load_buffers(Document& document, Container& container) {
         }
         buffer.uri.clear();
         if (buffer.data.size() < document.buffer_bytes[i])
-            throw FileError(document.path, message(where, ".byteLength: expected at most the ", buffer.data.size(),
-                                                   " bytes there are, got ", document.buffer_bytes[i]));
+            throw FileError(document.path,
+                            message(where, ".byteLength: expected at most the ", buffer.data.size(),
+                                    " bytes there are, got ", document.buffer_bytes[i]));
         buffer.data.resize(document.buffer_bytes[i]);
         if (buffer.data.size() > remaining)
-            throw FileError(document.path, message("buffers: expected at most ", MAX_FILE_BYTES, " bytes together, got more"));
+            throw FileError(document.path, message("buffers: expected at most ", MAX_FILE_BYTES,
+                                                   " bytes together, got more"));
         remaining -= buffer.data.size();
     }
 }

@@ -18,10 +18,11 @@ struct StbHeader {
 
 StbHeader stb_header(const std::vector<uint8_t>& bytes);
 /// RGBA bytes, empty with the reason in `failure` where the picture is damaged.
-std::vector<uint8_t> stb_decode(const std::vector<uint8_t>& bytes, int& width, int& height, std::string& failure);
+std::vector<uint8_t> stb_decode(const std::vector<uint8_t>& bytes, int& width, int& height,
+                                std::string& failure);
 
-// A few bytes of a deflate stream can ask for gigabytes: while a picture is decoded no block may exceed what its size
-// can need.
+// A few bytes of a deflate stream can ask for gigabytes: while a picture is decoded no block may exceed what
+// its size can need.
 void* bounded_malloc(size_t size);
 void* bounded_realloc(void* pointer, size_t size);
 void bounded_free(void* pointer);

@@ -1,5 +1,5 @@
-// From JSON text to a checked model. tinygltf trusts indices and sizes and drops what it does not understand, so the
-// text is held against gltf_schema.cpp first, and buffers and pictures are kept away from it.
+// From JSON text to a checked model. tinygltf trusts indices and sizes and drops what it does not understand,
+// so the text is held against gltf_schema.cpp first, and buffers and pictures are kept away from it.
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -22,13 +22,15 @@ constexpr size_t MAX_ENTITIES = 1u << 17; ///< of one kind; tinygltf's structure
 constexpr size_t MAX_NODES = 1u << 19;
 
 const std::set<std::string> SUPPORTED = {
-    "KHR_materials_specular",   "KHR_materials_ior",     "KHR_materials_clearcoat",   "KHR_materials_anisotropy",
-    "KHR_materials_unlit",      "KHR_texture_transform", "KHR_materials_emissive_strength", "KHR_mesh_quantization"};
+    "KHR_materials_specular",          "KHR_materials_ior",    "KHR_materials_clearcoat",
+    "KHR_materials_anisotropy",        "KHR_materials_unlit",  "KHR_texture_transform",
+    "KHR_materials_emissive_strength", "KHR_mesh_quantization"};
 
 /// Bounds nesting and the number of values before anything is built from the text.
 void scan(const std::string& path, const std::string& text) {
     if (text.size() > MAX_JSON_BYTES)
-        throw FileError(path, message("JSON: expected at most ", MAX_JSON_BYTES, " bytes, got ", text.size()));
+        throw FileError(path,
+                        message("JSON: expected at most ", MAX_JSON_BYTES, " bytes, got ", text.size()));
     size_t depth = 0, values = 0;
     bool is_string = false;
     for (size_t i = 0; i < text.size(); ++i) {
@@ -42,7 +44,8 @@ void scan(const std::string& path, const std::string& text) {
         if (c == '{' || c == '[') ++depth, ++values;
         if (c == ',') ++values;
         if ((c == '}' || c == ']') && depth > 0) --depth;
-        if (depth > MAX_DEPTH) throw FileError(path, message("JSON: expected at most ", MAX_DEPTH, " levels, got more"));
+        if (depth > MAX_DEPTH)
+            throw FileError(path, message("JSON: expected at most ", MAX_DEPTH, " levels, got more"));
         if (values > MAX_JSON_VALUES)
             throw FileError(path, message("JSON: expected at most ", MAX_JSON_VALUES, " values, got more"));
     }
@@ -74,7 +77,8 @@ public:
     }
 
 private:
-    [[noreturn]] void fail(const std::string& where, const std::string& expected, const std::string& got) const {
+    [[noreturn]] void fail(const std::string& where, const std::string& expected,
+                           const std::string& got) const {
         throw FileError(path_, where + ": expected " + expected + ", got " + got);
     }
 
@@ -111,10 +115,18 @@ private:
         for (size_t i = 0; i < value.size(); ++i) {
             std::string item = message(where, "[", i, "]");
             switch (property.kind) {
-            case Kind::numbers: check_number(value[i], item); break;
-            case Kind::indices: check_index(value[i], property.target, item); break;
-            case Kind::index_maps: check_index_map(value[i], property.target, item); break;
-            case Kind::texts: require(value[i].is_string(), item, "a string", value[i]); break;
+            case Kind::numbers:
+                check_number(value[i], item);
+                break;
+            case Kind::indices:
+                check_index(value[i], property.target, item);
+                break;
+            case Kind::index_maps:
+                check_index_map(value[i], property.target, item);
+                break;
+            case Kind::texts:
+                require(value[i].is_string(), item, "a string", value[i]);
+                break;
             default:
                 require(value[i].is_object(), item, "an object", value[i]);
                 check_members(value[i], property.members, item);
@@ -124,8 +136,8 @@ private:
 
     void check_count(const json& value, const Property& property, const std::string& where) const {
         require(value.is_number_integer(), where, "an integer", value);
-        require(value.is_number_unsigned() && value.get<uint64_t>() <= MAX_COUNT
-                    && value.get<int64_t>() >= property.minimum,
+        require(value.is_number_unsigned() && value.get<uint64_t>() <= MAX_COUNT &&
+                    value.get<int64_t>() >= property.minimum,
                 where, message("an integer in ", property.minimum, "..", MAX_COUNT).c_str(), value);
         if (property.choices.empty()) return;
         std::string list;
@@ -147,12 +159,24 @@ private:
 
     void check(json& value, const Property& property, const std::string& where) const {
         switch (property.kind) {
-        case Kind::text: check_text(value, property, where); break;
-        case Kind::boolean: require(value.is_boolean(), where, "true or false", value); break;
-        case Kind::number: check_number(value, where); break;
-        case Kind::count: check_count(value, property, where); break;
-        case Kind::index: check_index(value, property.target, where); break;
-        case Kind::index_map: check_index_map(value, property.target, where); break;
+        case Kind::text:
+            check_text(value, property, where);
+            break;
+        case Kind::boolean:
+            require(value.is_boolean(), where, "true or false", value);
+            break;
+        case Kind::number:
+            check_number(value, where);
+            break;
+        case Kind::count:
+            check_count(value, property, where);
+            break;
+        case Kind::index:
+            check_index(value, property.target, where);
+            break;
+        case Kind::index_map:
+            check_index_map(value, property.target, where);
+            break;
         case Kind::object:
             require(value.is_object(), where, "an object", value);
             check_members(value, property.members, where);
@@ -162,7 +186,8 @@ private:
             if (property.length && value.size() != property.length)
                 fail(where, message(property.length, " numbers"), message(value.size()));
             break;
-        default: check_array(value, property, where);
+        default:
+            check_array(value, property, where);
         }
     }
 
@@ -173,11 +198,12 @@ private:
 void check_version(const std::string& path, const json& asset) {
     // "2.x", and a minVersion, where there is one, that this reader satisfies.
     std::string version = asset["version"];
-    bool is_2 = version.rfind("2.", 0) == 0 && version.size() > 2
-                && version.find_first_not_of("0123456789", 2) == std::string::npos;
+    bool is_2 = version.rfind("2.", 0) == 0 && version.size() > 2 &&
+                version.find_first_not_of("0123456789", 2) == std::string::npos;
     if (!is_2) throw FileError(path, "asset.version: expected 2.x, got \"" + version + "\"");
     std::string minimum = asset.value("minVersion", "2.0");
-    if (minimum != "2.0") throw FileError(path, "asset.minVersion: expected at most 2.0, got \"" + minimum + "\"");
+    if (minimum != "2.0")
+        throw FileError(path, "asset.minVersion: expected at most 2.0, got \"" + minimum + "\"");
 }
 
 void check_extensions(Document& document, const json& root) {
@@ -185,9 +211,11 @@ void check_extensions(Document& document, const json& root) {
     for (const std::string& name : root.value("extensionsRequired", std::vector<std::string>{}))
         if (!SUPPORTED.count(name)) refused += (refused.empty() ? "" : ", ") + name;
     if (!refused.empty())
-        throw FileError(document.path, "extensionsRequired: expected only extensions Burnish knows, got " + refused);
+        throw FileError(document.path,
+                        "extensionsRequired: expected only extensions Burnish knows, got " + refused);
     for (const std::string& name : root.value("extensionsUsed", std::vector<std::string>{}))
-        if (!SUPPORTED.count(name) && !std::count(document.ignored_extensions.begin(), document.ignored_extensions.end(), name))
+        if (!SUPPORTED.count(name) &&
+            !std::count(document.ignored_extensions.begin(), document.ignored_extensions.end(), name))
             document.ignored_extensions.push_back(name);
 }
 
@@ -210,8 +238,8 @@ void move_sources(Document& document, json& root) {
         root.erase(name);
 }
 
-/// Index accessors by mesh and primitive, taken out of the JSON: tinygltf refuses one without a buffer view, which is
-/// valid glTF (all zero, or sparse).
+/// Index accessors by mesh and primitive, taken out of the JSON: tinygltf refuses one without a buffer view,
+/// which is valid glTF (all zero, or sparse).
 std::vector<std::vector<int>> take_indices(json& root) {
     std::vector<std::vector<int>> taken;
     if (!root.count("meshes")) return taken;

@@ -17,7 +17,8 @@ double number_or(const tinygltf::Value& object, const char* name, double fallbac
     return object.Has(name) ? object.Get(name).GetNumberAsDouble() : fallback;
 }
 
-std::vector<double> numbers_or(const tinygltf::Value& object, const char* name, std::vector<double> fallback) {
+std::vector<double> numbers_or(const tinygltf::Value& object, const char* name,
+                               std::vector<double> fallback) {
     if (!object.Has(name)) return fallback;
     for (size_t i = 0; i < fallback.size(); ++i)
         fallback[i] = object.Get(name).Get(static_cast<int>(i)).GetNumberAsDouble();
@@ -37,15 +38,23 @@ TextureSampler sampler_of(const tinygltf::Sampler& from) {
     switch (from.minFilter) {
     case TINYGLTF_TEXTURE_FILTER_NEAREST:
     case TINYGLTF_TEXTURE_FILTER_NEAREST_MIPMAP_NEAREST:
-    case TINYGLTF_TEXTURE_FILTER_NEAREST_MIPMAP_LINEAR: sampler.minify = TextureFilter::nearest; break;
-    default: break;
+    case TINYGLTF_TEXTURE_FILTER_NEAREST_MIPMAP_LINEAR:
+        sampler.minify = TextureFilter::nearest;
+        break;
+    default:
+        break;
     }
     switch (from.minFilter) {
     case TINYGLTF_TEXTURE_FILTER_NEAREST:
-    case TINYGLTF_TEXTURE_FILTER_LINEAR: sampler.mip = MipFilter::none; break;
+    case TINYGLTF_TEXTURE_FILTER_LINEAR:
+        sampler.mip = MipFilter::none;
+        break;
     case TINYGLTF_TEXTURE_FILTER_NEAREST_MIPMAP_NEAREST:
-    case TINYGLTF_TEXTURE_FILTER_LINEAR_MIPMAP_NEAREST: sampler.mip = MipFilter::nearest; break;
-    default: break;
+    case TINYGLTF_TEXTURE_FILTER_LINEAR_MIPMAP_NEAREST:
+        sampler.mip = MipFilter::nearest;
+        break;
+    default:
+        break;
     }
     return sampler;
 }
@@ -55,7 +64,8 @@ TextureSampler sampler_of(const tinygltf::Sampler& from) {
 void MaterialLoader::load() {
     for (size_t i = 0; i < document_.model.materials.size(); ++i) {
         const tinygltf::Material& from = document_.model.materials[i];
-        scene_.materials.push_back(convert(from, from.name.empty() ? message("materials[", i, "]") : "material \"" + from.name + "\""));
+        scene_.materials.push_back(convert(from, from.name.empty() ? message("materials[", i, "]")
+                                                                   : "material \"" + from.name + "\""));
     }
 }
 
@@ -93,8 +103,8 @@ glm::vec3 MaterialLoader::bounded(const std::vector<double>& values, float high,
             bounded(values[2], 0.0f, high, where)};
 }
 
-float MaterialLoader::factor_of(const tinygltf::Value& extension, const char* name, float fallback, float low, float high,
-                                const std::string& where) {
+float MaterialLoader::factor_of(const tinygltf::Value& extension, const char* name, float fallback, float low,
+                                float high, const std::string& where) {
     return bounded(number_or(extension, name, fallback), low, high, where + "." + name);
 }
 
@@ -107,14 +117,19 @@ int32_t MaterialLoader::load_image(int index) {
     if (!from.uri.empty()) where += " " + short_uri(from.uri);
     int32_t found = -1;
     try {
-        std::vector<uint8_t> bytes = from.bufferView >= 0 ? reader_.read_view(from.bufferView, where)
-                                                          : read_uri(document_.folder, from.uri, MAX_IMAGE_BYTES);
+        std::vector<uint8_t> bytes = from.bufferView >= 0
+                                         ? reader_.read_view(from.bufferView, where)
+                                         : read_uri(document_.folder, from.uri, MAX_IMAGE_BYTES);
         if (bytes.size() > MAX_IMAGE_BYTES)
-            throw std::runtime_error(message("expected at most ", MAX_IMAGE_BYTES, " bytes, got ", bytes.size()));
+            throw std::runtime_error(
+                message("expected at most ", MAX_IMAGE_BYTES, " bytes, got ", bytes.size()));
         std::string converted;
-        TextureImage image = decode_image(bytes, std::min(MAX_IMAGE_TEXELS, MAX_SCENE_TEXELS - texels_), converted);
+        TextureImage image =
+            decode_image(bytes, std::min(MAX_IMAGE_TEXELS, MAX_SCENE_TEXELS - texels_), converted);
         if (!converted.empty()) warn(where + ": " + converted);
-        image.name = !from.name.empty() ? from.name : from.bufferView >= 0 ? message("image.", index) : short_uri(from.uri);
+        image.name = !from.name.empty()     ? from.name
+                     : from.bufferView >= 0 ? message("image.", index)
+                                            : short_uri(from.uri);
         texels_ += uint64_t{image.width} * image.height;
         found = static_cast<int32_t>(scene_.images.size());
         scene_.images.push_back(std::move(image));
@@ -133,21 +148,27 @@ TextureUse MaterialLoader::convert_texture(int index, int uv_set, const tinygltf
     if (index < 0) return use;
     const tinygltf::Texture& texture = document_.model.textures[index];
     if (texture.source < 0) {
-        warn(message(where, ": textures[", index, "] has no PNG or JPEG source: left out, the factor alone applies"));
+        warn(message(where, ": textures[", index,
+                     "] has no PNG or JPEG source: left out, the factor alone applies"));
         return use;
     }
     if (texture.sampler >= 0) use.sampler = sampler_of(document_.model.samplers[texture.sampler]);
     if (const tinygltf::Value* transform = find_extension(extensions, "KHR_texture_transform")) {
-        // uv' = offset + rotation * scale * uv. Seen with v downward the coordinates turn counter-clockwise, as the
-        // extension says in words and as viewers draw its test scene; its GLSL, read by columns, would turn the other way.
-        std::vector<double> offset = numbers_or(*transform, "offset", {0, 0}), scale = numbers_or(*transform, "scale", {1, 1});
-        double rotation = number_or(*transform, "rotation", 0.0), c = std::cos(rotation), s = std::sin(rotation);
+        // uv' = offset + rotation * scale * uv. Seen with v downward the coordinates turn counter-clockwise,
+        // as the extension says in words and as viewers draw its test scene; its GLSL, read by columns, would
+        // turn the other way.
+        std::vector<double> offset = numbers_or(*transform, "offset", {0, 0}),
+                            scale = numbers_or(*transform, "scale", {1, 1});
+        double rotation = number_or(*transform, "rotation", 0.0), c = std::cos(rotation),
+               s = std::sin(rotation);
         use.uv_offset = {offset[0], offset[1]};
-        use.uv_scale_rotation = glm::mat2(c * scale[0], -s * scale[0], s * scale[1], c * scale[1]); // by columns
+        use.uv_scale_rotation =
+            glm::mat2(c * scale[0], -s * scale[0], s * scale[1], c * scale[1]); // by columns
         uv_set = static_cast<int>(number_or(*transform, "texCoord", uv_set));
     }
     if (uv_set > 1) {
-        warn(message(where, ": expected texture coordinate set 0 or 1, got ", uv_set, ": left out, the factor alone applies"));
+        warn(message(where, ": expected texture coordinate set 0 or 1, got ", uv_set,
+                     ": left out, the factor alone applies"));
         return TextureUse{};
     }
     use.uv_set = static_cast<uint32_t>(uv_set);
@@ -155,14 +176,15 @@ TextureUse MaterialLoader::convert_texture(int index, int uv_set, const tinygltf
     return use;
 }
 
-TextureUse MaterialLoader::texture_of(const tinygltf::Value& extension, const char* name, const std::string& where) {
+TextureUse MaterialLoader::texture_of(const tinygltf::Value& extension, const char* name,
+                                      const std::string& where) {
     if (!extension.Has(name)) return {};
     const tinygltf::Value& info = extension.Get(name);
     tinygltf::ExtensionMap extensions;
     if (info.Has("extensions") && info.Get("extensions").Has("KHR_texture_transform"))
         extensions["KHR_texture_transform"] = info.Get("extensions").Get("KHR_texture_transform");
-    return convert_texture(info.Get("index").GetNumberAsInt(), static_cast<int>(number_or(info, "texCoord", 0)), extensions,
-                           where + "." + name);
+    return convert_texture(info.Get("index").GetNumberAsInt(),
+                           static_cast<int>(number_or(info, "texCoord", 0)), extensions, where + "." + name);
 }
 
 Material MaterialLoader::convert(const tinygltf::Material& from, const std::string& where) {
@@ -175,7 +197,8 @@ Material MaterialLoader::convert(const tinygltf::Material& from, const std::stri
     source.metallic = bounded(pbr.metallicFactor, 0.0f, 1.0f, where + ".metallicFactor");
     source.roughness = bounded(pbr.roughnessFactor, 0.0f, 1.0f, where + ".roughnessFactor");
     source.normal_scale = static_cast<float>(from.normalTexture.scale);
-    source.occlusion_strength = bounded(from.occlusionTexture.strength, 0.0f, 1.0f, where + ".occlusionTexture.strength");
+    source.occlusion_strength =
+        bounded(from.occlusionTexture.strength, 0.0f, 1.0f, where + ".occlusionTexture.strength");
     auto texture = [&](const auto& info, const char* name) {
         return convert_texture(info.index, info.texCoord, info.extensions, where + "." + name);
     };
@@ -202,7 +225,8 @@ Material MaterialLoader::convert(const tinygltf::Material& from, const std::stri
     return material;
 }
 
-void MaterialLoader::read_extensions(const tinygltf::Material& from, Material& material, const std::string& where) {
+void MaterialLoader::read_extensions(const tinygltf::Material& from, Material& material,
+                                     const std::string& where) {
     MetallicRoughness& source = *material.source;
     constexpr float LARGEST = 3e38f;
     if (auto* extension = find_extension(from.extensions, "KHR_materials_ior")) {
@@ -211,7 +235,8 @@ void MaterialLoader::read_extensions(const tinygltf::Material& from, Material& m
     }
     if (auto* extension = find_extension(from.extensions, "KHR_materials_specular")) {
         source.specular = factor_of(*extension, "specularFactor", 1.0f, 0.0f, 1.0f, where);
-        source.specular_color = bounded(numbers_or(*extension, "specularColorFactor", {1, 1, 1}), LARGEST, where + ".specularColorFactor");
+        source.specular_color = bounded(numbers_or(*extension, "specularColorFactor", {1, 1, 1}), LARGEST,
+                                        where + ".specularColorFactor");
         source.specular_texture = texture_of(*extension, "specularTexture", where);
         source.specular_color_texture = texture_of(*extension, "specularColorTexture", where);
     }
@@ -222,7 +247,8 @@ void MaterialLoader::read_extensions(const tinygltf::Material& from, Material& m
     }
     if (auto* extension = find_extension(from.extensions, "KHR_materials_clearcoat")) {
         source.clearcoat = factor_of(*extension, "clearcoatFactor", 0.0f, 0.0f, 1.0f, where);
-        source.clearcoat_roughness = factor_of(*extension, "clearcoatRoughnessFactor", 0.0f, 0.0f, 1.0f, where);
+        source.clearcoat_roughness =
+            factor_of(*extension, "clearcoatRoughnessFactor", 0.0f, 0.0f, 1.0f, where);
         source.clearcoat_texture = texture_of(*extension, "clearcoatTexture", where);
         source.clearcoat_roughness_texture = texture_of(*extension, "clearcoatRoughnessTexture", where);
         if (extension->Has("clearcoatNormalTexture"))

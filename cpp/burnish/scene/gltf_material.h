@@ -16,13 +16,15 @@ public:
     /// Appends all materials of the file to the scene, in its order.
     void load();
 
-    /// Index in the scene of a file's material (-1: glTF's default) for a mesh with or without vertex colours.
+    /// Index in the scene of a file's material (-1: glTF's default) for a mesh with or without vertex
+    /// colours.
     uint32_t find(int material, bool has_vertex_color);
 
 private:
     Material convert(const tinygltf::Material& from, const std::string& where);
     void read_extensions(const tinygltf::Material& from, Material& material, const std::string& where);
-    TextureUse convert_texture(int index, int uv_set, const tinygltf::ExtensionMap& extensions, const std::string& where);
+    TextureUse convert_texture(int index, int uv_set, const tinygltf::ExtensionMap& extensions,
+                               const std::string& where);
     TextureUse texture_of(const tinygltf::Value& extension, const char* name, const std::string& where);
     float factor_of(const tinygltf::Value& extension, const char* name, float fallback, float low, float high,
                     const std::string& where);
@@ -34,8 +36,8 @@ private:
     const Document& document_;
     const AccessorReader& reader_;
     Scene& scene_;
-    std::map<int, int32_t> images_;            ///< file's image to scene's, -1 where it cannot be used
-    uint64_t texels_ = 0;                      ///< decoded so far
+    std::map<int, int32_t> images_; ///< file's image to scene's, -1 where it cannot be used
+    uint64_t texels_ = 0;           ///< decoded so far
     std::map<std::pair<int, bool>, uint32_t> variants_;
 };
 

@@ -53,17 +53,20 @@ private:
     void require_type(int accessor, const std::string& name) const {
         int type = reader_.component_type(accessor);
         bool is_unsigned_normalized =
-            reader_.is_normalized(accessor)
-            && (type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE || type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT);
+            reader_.is_normalized(accessor) &&
+            (type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE || type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT);
         bool takes_normalized = name.rfind("TEXCOORD", 0) == 0 || name.rfind("COLOR", 0) == 0;
         bool is_plain = type == TINYGLTF_COMPONENT_TYPE_FLOAT || (takes_normalized && is_unsigned_normalized);
-        bool is_quantized = has_extension("KHR_mesh_quantization") && type != TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT;
+        bool is_quantized =
+            has_extension("KHR_mesh_quantization") && type != TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT;
         if (!is_plain && !is_quantized)
-            fail(name, message("expected 32-bit floats", takes_normalized ? " or normalized unsigned integers" : "",
-                               ", got component type ", type));
+            fail(name,
+                 message("expected 32-bit floats", takes_normalized ? " or normalized unsigned integers" : "",
+                         ", got component type ", type));
     }
 
-    template <typename Vector> std::vector<Vector> read(const std::string& name) {
+    template <typename Vector>
+    std::vector<Vector> read(const std::string& name) {
         int accessor = primitive_.attributes.at(name);
         require_type(accessor, name);
         size_t count = name == "POSITION" ? reader_.count(accessor) : mesh_.positions.size();
@@ -72,9 +75,11 @@ private:
         return reader_.read<Vector>(accessor, where_ + "." + name);
     }
 
-    template <typename Vector> void require_finite(const std::vector<Vector>& values, const std::string& name) const {
+    template <typename Vector>
+    void require_finite(const std::vector<Vector>& values, const std::string& name) const {
         for (size_t i = 0; i < values.size(); ++i)
-            if (!is_finite(values[i])) fail(name, message("expected finite numbers, got a non-finite one at ", i));
+            if (!is_finite(values[i]))
+                fail(name, message("expected finite numbers, got a non-finite one at ", i));
     }
 
     std::vector<glm::vec2> read_uv(const std::string& name) {
@@ -106,7 +111,8 @@ private:
             order = reader_.read_indices(primitive_.indices, where_ + ".indices");
             for (uint32_t index : order)
                 if (index >= vertex_count)
-                    fail("indices", message("expected each below the vertex count ", vertex_count, ", got ", index));
+                    fail("indices",
+                         message("expected each below the vertex count ", vertex_count, ", got ", index));
         } else {
             reader_.charge(vertex_count * sizeof(uint32_t), where_);
             order.resize(vertex_count);
@@ -114,19 +120,23 @@ private:
                 order[i] = static_cast<uint32_t>(i);
         }
         if (primitive_.mode == TINYGLTF_MODE_TRIANGLES) {
-            if (order.size() % 3 != 0) warn(message("expected three indices per triangle, got ", order.size(), ": the last are left out"));
+            if (order.size() % 3 != 0)
+                warn(message("expected three indices per triangle, got ", order.size(),
+                             ": the last are left out"));
             order.resize(order.size() / 3 * 3);
             mesh_.indices = std::move(order);
             return;
         }
-        // Strips and fans, glTF 2.0 section 3.7.2.1; every second triangle of a strip is turned to face as the others.
+        // Strips and fans, glTF 2.0 section 3.7.2.1; every second triangle of a strip is turned to face as
+        // the others.
         if (order.size() < 3) return;
         reader_.charge((order.size() - 2) * 3 * sizeof(uint32_t), where_);
         bool is_strip = primitive_.mode == TINYGLTF_MODE_TRIANGLE_STRIP;
         for (size_t i = 0; i + 2 < order.size(); ++i) {
             std::array<uint32_t, 3> triangle = {order[i + 1], order[i + 2], order[0]};
             if (is_strip) triangle = {order[i], order[i + 1 + i % 2], order[i + 2 - i % 2]};
-            if (triangle[0] == triangle[1] || triangle[1] == triangle[2] || triangle[2] == triangle[0]) continue;
+            if (triangle[0] == triangle[1] || triangle[1] == triangle[2] || triangle[2] == triangle[0])
+                continue;
             mesh_.indices.insert(mesh_.indices.end(), triangle.begin(), triangle.end());
         }
     }
@@ -134,7 +144,8 @@ private:
     void read_frames() {
         if (!primitive_.attributes.count("NORMAL")) {
             // Flat shading; glTF has given tangents ignored then.
-            constexpr uint64_t BYTES_PER_CORNER = sizeof(glm::vec3) * 2 + sizeof(glm::vec2) * 2 + sizeof(glm::vec4) + 8;
+            constexpr uint64_t BYTES_PER_CORNER =
+                sizeof(glm::vec3) * 2 + sizeof(glm::vec2) * 2 + sizeof(glm::vec4) + 8;
             reader_.charge(mesh_.indices.size() * BYTES_PER_CORNER, where_);
             compute_flat_normals(mesh_);
             return;
@@ -178,7 +189,8 @@ private:
                 mesh_.tangents.clear();
                 return;
             }
-            mesh_.tangents[i] = glm::vec4(glm::vec3(tangent / length), mesh_.tangents[i].w < 0.0f ? -1.0f : 1.0f);
+            mesh_.tangents[i] =
+                glm::vec4(glm::vec3(tangent / length), mesh_.tangents[i].w < 0.0f ? -1.0f : 1.0f);
         }
     }
 
@@ -192,8 +204,9 @@ private:
 
 } // namespace
 
-std::optional<Mesh> load_primitive(const Document& document, AccessorReader& reader, const tinygltf::Primitive& primitive,
-                                   const std::string& where, std::vector<std::string>& warnings) {
+std::optional<Mesh> load_primitive(const Document& document, AccessorReader& reader,
+                                   const tinygltf::Primitive& primitive, const std::string& where,
+                                   std::vector<std::string>& warnings) {
     return PrimitiveLoader(document, reader, primitive, where, warnings).load();
 }
 
@@ -204,19 +217,21 @@ void complete_mesh(Mesh& mesh, const Material& material, AccessorReader& reader,
     bool needs_uv[2] = {};
     for (const TextureUse* use :
          {&source.base_color_texture, &source.metallic_roughness_texture, &source.normal_texture,
-          &source.occlusion_texture, &source.emissive_texture, &source.specular_texture, &source.specular_color_texture,
-          &source.anisotropy_texture, &source.clearcoat_texture, &source.clearcoat_roughness_texture})
+          &source.occlusion_texture, &source.emissive_texture, &source.specular_texture,
+          &source.specular_color_texture, &source.anisotropy_texture, &source.clearcoat_texture,
+          &source.clearcoat_roughness_texture})
         if (use->is_used()) needs_uv[use->uv_set] = true;
     bool has_uv[2] = {!mesh.uv0.empty(), !mesh.uv1.empty()};
 
     bool has_normal_map = source.normal_texture.is_used();
     bool is_anisotropic = source.anisotropy > 0.0f;
     if ((has_normal_map || is_anisotropic) && mesh.tangents.empty()) {
-        // KHR_materials_anisotropy: the normal map's set, else that of the anisotropy texture, else the first there is.
-        uint32_t uv_set = has_normal_map                          ? source.normal_texture.uv_set
-                          : source.anisotropy_texture.is_used()   ? source.anisotropy_texture.uv_set
-                          : has_uv[0] || !has_uv[1]               ? 0u
-                                                                  : 1u;
+        // KHR_materials_anisotropy: the normal map's set, else that of the anisotropy texture, else the first
+        // there is.
+        uint32_t uv_set = has_normal_map                        ? source.normal_texture.uv_set
+                          : source.anisotropy_texture.is_used() ? source.anisotropy_texture.uv_set
+                          : has_uv[0] || !has_uv[1]             ? 0u
+                                                                : 1u;
         if (has_uv[uv_set]) {
             constexpr uint64_t BYTES_PER_CORNER = 192; // while they are derived
             reader.require_room(mesh.indices.size() * BYTES_PER_CORNER, where);
@@ -225,13 +240,15 @@ void complete_mesh(Mesh& mesh, const Material& material, AccessorReader& reader,
         } else {
             compute_tangents_around_y(mesh);
             reader.charge(mesh.positions.size() * sizeof(glm::vec4), where);
-            warnings.push_back(where + ": no tangents and no texture coordinates to derive them from: they follow the "
-                                       "longitude around the object's y axis");
+            warnings.push_back(
+                where + ": no tangents and no texture coordinates to derive them from: they follow the "
+                        "longitude around the object's y axis");
         }
     }
     for (int set = 0; set < 2; ++set) {
         if (!needs_uv[set] || has_uv[set]) continue;
-        warnings.push_back(message(where, ": its material reads TEXCOORD_", set, ", which it lacks: taken as 0"));
+        warnings.push_back(
+            message(where, ": its material reads TEXCOORD_", set, ", which it lacks: taken as 0"));
         reader.charge(mesh.positions.size() * sizeof(glm::vec2), where);
         (set == 0 ? mesh.uv0 : mesh.uv1).assign(mesh.positions.size(), glm::vec2(0.0f));
     }

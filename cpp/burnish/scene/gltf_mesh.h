@@ -8,10 +8,12 @@
 
 namespace burnish::gltf {
 
-/// Reads positions, indices, normals, texture coordinates, colours and given tangents of a primitive: triangles of its
-/// strips and fans, every normal of unit length. Nothing, and a warning, where there are no triangles.
-std::optional<Mesh> load_primitive(const Document& document, AccessorReader& reader, const tinygltf::Primitive& primitive,
-                                   const std::string& where, std::vector<std::string>& warnings);
+/// Reads positions, indices, normals, texture coordinates, colours and given tangents of a primitive:
+/// triangles of its strips and fans, every normal of unit length. Nothing, and a warning, where there are no
+/// triangles.
+std::optional<Mesh> load_primitive(const Document& document, AccessorReader& reader,
+                                   const tinygltf::Primitive& primitive, const std::string& where,
+                                   std::vector<std::string>& warnings);
 
 /// Adds the texture coordinates and tangents that the material reads and the file lacks.
 void complete_mesh(Mesh& mesh, const Material& material, AccessorReader& reader, const std::string& where,

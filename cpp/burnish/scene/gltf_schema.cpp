@@ -10,8 +10,12 @@ Property required(Property property) {
 Property text(std::string name, std::vector<std::string> words = {}) {
     return {.name = std::move(name), .kind = Kind::text, .words = std::move(words)};
 }
-Property boolean(std::string name) { return {.name = std::move(name), .kind = Kind::boolean}; }
-Property number(std::string name) { return {.name = std::move(name), .kind = Kind::number}; }
+Property boolean(std::string name) {
+    return {.name = std::move(name), .kind = Kind::boolean};
+}
+Property number(std::string name) {
+    return {.name = std::move(name), .kind = Kind::number};
+}
 Property count(std::string name, int minimum = 0) {
     return {.name = std::move(name), .kind = Kind::count, .minimum = minimum};
 }
@@ -48,25 +52,28 @@ Property material_extensions() {
         "extensions",
         {object("KHR_materials_unlit", {}), object("KHR_materials_ior", {number("ior")}),
          object("KHR_materials_emissive_strength", {number("emissiveStrength")}),
-         object("KHR_materials_specular", {number("specularFactor"), texture("specularTexture"),
-                                           numbers("specularColorFactor", 3), texture("specularColorTexture")}),
+         object("KHR_materials_specular",
+                {number("specularFactor"), texture("specularTexture"), numbers("specularColorFactor", 3),
+                 texture("specularColorTexture")}),
          object("KHR_materials_anisotropy",
                 {number("anisotropyStrength"), number("anisotropyRotation"), texture("anisotropyTexture")}),
          object("KHR_materials_clearcoat",
                 {number("clearcoatFactor"), texture("clearcoatTexture"), number("clearcoatRoughnessFactor"),
-                 texture("clearcoatRoughnessTexture"), texture("clearcoatNormalTexture", {number("scale")})})});
+                 texture("clearcoatRoughnessTexture"),
+                 texture("clearcoatNormalTexture", {number("scale")})})});
 }
 
 Property materials() {
-    return objects("materials",
-                   {text("name"),
-                    object("pbrMetallicRoughness",
-                           {numbers("baseColorFactor", 4), texture("baseColorTexture"), number("metallicFactor"),
-                            number("roughnessFactor"), texture("metallicRoughnessTexture")}),
-                    texture("normalTexture", {number("scale")}), texture("occlusionTexture", {number("strength")}),
-                    texture("emissiveTexture"), numbers("emissiveFactor", 3),
-                    text("alphaMode", {"OPAQUE", "MASK", "BLEND"}), number("alphaCutoff"), boolean("doubleSided"),
-                    material_extensions()});
+    return objects(
+        "materials",
+        {text("name"),
+         object("pbrMetallicRoughness",
+                {numbers("baseColorFactor", 4), texture("baseColorTexture"), number("metallicFactor"),
+                 number("roughnessFactor"), texture("metallicRoughnessTexture")}),
+         texture("normalTexture", {number("scale")}), texture("occlusionTexture", {number("strength")}),
+         texture("emissiveTexture"), numbers("emissiveFactor", 3),
+         text("alphaMode", {"OPAQUE", "MASK", "BLEND"}), number("alphaCutoff"), boolean("doubleSided"),
+         material_extensions()});
 }
 
 Property accessors() {
@@ -77,21 +84,24 @@ Property accessors() {
          required(choice("componentType", {5120, 5121, 5122, 5123, 5125, 5126})), boolean("normalized"),
          required(count("count", 1)),
          required(text("type", {"SCALAR", "VEC2", "VEC3", "VEC4", "MAT2", "MAT3", "MAT4"})),
-         object("sparse",
-                {required(count("count", 1)),
-                 required(object("indices", {required(index("bufferView", "bufferViews")), count("byteOffset"),
-                                             required(choice("componentType", index_types))})),
-                 required(object("values", {required(index("bufferView", "bufferViews")), count("byteOffset")}))})});
+         object("sparse", {required(count("count", 1)),
+                           required(object("indices",
+                                           {required(index("bufferView", "bufferViews")), count("byteOffset"),
+                                            required(choice("componentType", index_types))})),
+                           required(object("values", {required(index("bufferView", "bufferViews")),
+                                                      count("byteOffset")}))})});
 }
 
 Property meshes() {
-    return objects("meshes",
-                   {text("name"), numbers("weights", 0),
-                    required(objects("primitives",
-                                     {required({.name = "attributes", .kind = Kind::index_map, .target = "accessors"}),
-                                      index("indices", "accessors"), index("material", "materials"),
-                                      choice("mode", {0, 1, 2, 3, 4, 5, 6}),
-                                      {.name = "targets", .kind = Kind::index_maps, .target = "accessors"}}))});
+    return objects(
+        "meshes",
+        {text("name"), numbers("weights", 0),
+         required(objects("primitives",
+                          {required({.name = "attributes", .kind = Kind::index_map, .target = "accessors"}),
+                           index("indices", "accessors"),
+                           index("material", "materials"),
+                           choice("mode", {0, 1, 2, 3, 4, 5, 6}),
+                           {.name = "targets", .kind = Kind::index_maps, .target = "accessors"}}))});
 }
 
 Property nodes() {
@@ -104,8 +114,8 @@ Property nodes() {
 Property cameras() {
     return objects("cameras",
                    {text("name"), required(text("type", {"perspective", "orthographic"})),
-                    object("perspective", {required(number("yfov")), required(number("znear")), number("zfar"),
-                                           number("aspectRatio")}),
+                    object("perspective", {required(number("yfov")), required(number("znear")),
+                                           number("zfar"), number("aspectRatio")}),
                     object("orthographic", {required(number("xmag")), required(number("ymag")),
                                             required(number("znear")), required(number("zfar"))})});
 }

@@ -29,10 +29,10 @@ struct Property {
     std::string name;
     Kind kind;
     bool is_required = false;
-    std::string target{};            ///< index kinds
-    Properties members{};            ///< object kinds
-    unsigned length = 0;             ///< numbers
-    int minimum = 0;                 ///< count
+    std::string target{};             ///< index kinds
+    Properties members{};             ///< object kinds
+    unsigned length = 0;              ///< numbers
+    int minimum = 0;                  ///< count
     std::vector<long long> choices{}; ///< count: the values allowed; any when empty
     std::vector<std::string> words{}; ///< text: the values allowed; any when empty
 };

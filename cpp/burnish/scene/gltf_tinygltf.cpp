@@ -25,16 +25,18 @@ namespace burnish::gltf {
 StbHeader stb_header(const std::vector<uint8_t>& bytes) {
     StbHeader header;
     int channels = 0;
-    header.is_known = stbi_info_from_memory(bytes.data(), static_cast<int>(bytes.size()), &header.width, &header.height,
-                                            &channels);
-    header.is_16_bit = header.is_known && stbi_is_16_bit_from_memory(bytes.data(), static_cast<int>(bytes.size()));
+    header.is_known = stbi_info_from_memory(bytes.data(), static_cast<int>(bytes.size()), &header.width,
+                                            &header.height, &channels);
+    header.is_16_bit =
+        header.is_known && stbi_is_16_bit_from_memory(bytes.data(), static_cast<int>(bytes.size()));
     return header;
 }
 
-std::vector<uint8_t> stb_decode(const std::vector<uint8_t>& bytes, int& width, int& height, std::string& failure) {
+std::vector<uint8_t> stb_decode(const std::vector<uint8_t>& bytes, int& width, int& height,
+                                std::string& failure) {
     int channels = 0;
-    uint8_t* texels =
-        stbi_load_from_memory(bytes.data(), static_cast<int>(bytes.size()), &width, &height, &channels, STBI_rgb_alpha);
+    uint8_t* texels = stbi_load_from_memory(bytes.data(), static_cast<int>(bytes.size()), &width, &height,
+                                            &channels, STBI_rgb_alpha);
     if (!texels) {
         failure = stbi_failure_reason() ? stbi_failure_reason() : "unknown reason";
         return {};

@@ -16,7 +16,8 @@ void validate(const MetallicRoughness& source) {
     require_range("source.metallic", source.metallic, 0.0f, 1.0f);
     require_range("source.roughness", source.roughness, 0.0f, 1.0f);
     if (!(source.ior == 0.0f || source.ior >= 1.0f) || !std::isfinite(source.ior))
-        throw std::invalid_argument(message("source.ior: expected 0 or a finite number >= 1, got ", source.ior));
+        throw std::invalid_argument(
+            message("source.ior: expected 0 or a finite number >= 1, got ", source.ior));
     require_range("source.specular", source.specular, 0.0f, 1.0f);
     require_non_negative("source.specular_color", source.specular_color);
     require_range("source.anisotropy", source.anisotropy, 0.0f, 1.0f);
@@ -24,7 +25,8 @@ void validate(const MetallicRoughness& source) {
     require_range("source.clearcoat_roughness", source.clearcoat_roughness, 0.0f, 1.0f);
     require_range("source.occlusion_strength", source.occlusion_strength, 0.0f, 1.0f);
     if (!std::isfinite(source.anisotropy_rotation) || !std::isfinite(source.normal_scale))
-        throw std::invalid_argument("source: expected finite anisotropy_rotation and normal_scale, got a non-finite number");
+        throw std::invalid_argument(
+            "source: expected finite anisotropy_rotation and normal_scale, got a non-finite number");
 }
 
 } // namespace
@@ -36,7 +38,8 @@ void validate(const KurtLobe& lobe, const std::string& prefix) {
     require_range(prefix + "alpha", lobe.alpha, 0.0f, 1.0f);
     require_non_negative(prefix + "weight", lobe.weight);
     if (!std::isfinite(lobe.rotation))
-        throw std::invalid_argument(message(prefix, "rotation: expected a finite number, got ", lobe.rotation));
+        throw std::invalid_argument(
+            message(prefix, "rotation: expected a finite number, got ", lobe.rotation));
 }
 
 void validate(const Material& material) {
@@ -44,11 +47,11 @@ void validate(const Material& material) {
     require_non_negative("emissive", material.emissive);
     require_range("alpha_cutoff", material.alpha_cutoff, 0.0f, 1.0f);
     if (material.lobes.size() > MAX_LOBES)
-        throw std::invalid_argument(message("lobes: expected at most ", MAX_LOBES, ", got ", material.lobes.size()));
+        throw std::invalid_argument(
+            message("lobes: expected at most ", MAX_LOBES, ", got ", material.lobes.size()));
     for (size_t i = 0; i < material.lobes.size(); ++i)
         validate(material.lobes[i], message("lobes[", i, "]."));
-    if (material.source)
-        validate(*material.source);
+    if (material.source) validate(*material.source);
 }
 
 } // namespace burnish

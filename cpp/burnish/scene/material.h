@@ -1,4 +1,5 @@
-// Materials as plain data: diffuse plus one to four Kurt lobes, and the metallic-roughness source they came from.
+// Materials as plain data: diffuse plus one to four Kurt lobes, and the metallic-roughness source they came
+// from.
 #pragma once
 
 #include <optional>
@@ -13,7 +14,8 @@ namespace burnish {
 
 constexpr uint32_t MAX_LOBES = 4;
 
-/// One Kurt lobe (maths: section 1). f = weight F(u) D / (4 (o.h) ((i.n)(o.n))^alpha), F(u) = r0 + (1 - r0)(1 - u)^5.
+/// One Kurt lobe (maths: section 1). f = weight F(u) D / (4 (o.h) ((i.n)(o.n))^alpha), F(u) = r0 + (1 - r0)(1
+/// - u)^5.
 struct KurtLobe {
     glm::vec2 roughness{0.2f}; ///< Beckmann slopes along tangent and bitangent, in [MIN_ROUGHNESS, 1]
     glm::vec3 r0{1.0f};        ///< reflectance at normal incidence, in [0, 1]; 1 switches Fresnel off
@@ -36,25 +38,25 @@ struct MetallicRoughness {
     float metallic = 1.0f;
     float roughness = 1.0f; ///< perceptual, in [0, 1]; slope m = max(roughness^2, MIN_ROUGHNESS)
     float ior = 1.5f;
-    float specular = 1.0f;               ///< KHR_materials_specular
-    glm::vec3 specular_color{1.0f};      ///< KHR_materials_specular
-    float anisotropy = 0.0f;             ///< KHR_materials_anisotropy strength, in [0, 1]
-    float anisotropy_rotation = 0.0f;    ///< radians
-    float clearcoat = 0.0f;              ///< KHR_materials_clearcoat
-    float clearcoat_roughness = 0.0f;    ///< perceptual
+    float specular = 1.0f;            ///< KHR_materials_specular
+    glm::vec3 specular_color{1.0f};   ///< KHR_materials_specular
+    float anisotropy = 0.0f;          ///< KHR_materials_anisotropy strength, in [0, 1]
+    float anisotropy_rotation = 0.0f; ///< radians
+    float clearcoat = 0.0f;           ///< KHR_materials_clearcoat
+    float clearcoat_roughness = 0.0f; ///< perceptual
     float normal_scale = 1.0f;
     float occlusion_strength = 1.0f;
     bool has_vertex_color = false;
 
-    TextureUse base_color_texture;         ///< sRGB
-    TextureUse metallic_roughness_texture; ///< linear, g = roughness, b = metallic
-    TextureUse normal_texture;             ///< linear
-    TextureUse occlusion_texture;          ///< linear, r
-    TextureUse emissive_texture;           ///< sRGB
-    TextureUse specular_texture;           ///< linear, a
-    TextureUse specular_color_texture;     ///< sRGB
-    TextureUse anisotropy_texture;         ///< linear, rg = direction, b = strength
-    TextureUse clearcoat_texture;          ///< linear, r
+    TextureUse base_color_texture;          ///< sRGB
+    TextureUse metallic_roughness_texture;  ///< linear, g = roughness, b = metallic
+    TextureUse normal_texture;              ///< linear
+    TextureUse occlusion_texture;           ///< linear, r
+    TextureUse emissive_texture;            ///< sRGB
+    TextureUse specular_texture;            ///< linear, a
+    TextureUse specular_color_texture;      ///< sRGB
+    TextureUse anisotropy_texture;          ///< linear, rg = direction, b = strength
+    TextureUse clearcoat_texture;           ///< linear, r
     TextureUse clearcoat_roughness_texture; ///< linear, g
 };
 
@@ -66,22 +68,25 @@ struct Material {
     AlphaMode alpha_mode = AlphaMode::opaque;
     float alpha_cutoff = 0.5f;
     bool double_sided = false;
-    /// Set for materials from glTF. `diffuse` and `lobes` hold its factors mapped by `map_metallic_roughness`;
-    /// where a texture or vertex colour is in use the surface pass maps again at every pixel.
+    /// Set for materials from glTF. `diffuse` and `lobes` hold its factors mapped by
+    /// `map_metallic_roughness`; where a texture or vertex colour is in use the surface pass maps again at
+    /// every pixel.
     std::optional<MetallicRoughness> source;
 };
 
 /// Throws std::invalid_argument, naming field, range and value; `prefix` goes before the field's name.
 void validate(const KurtLobe& lobe, const std::string& prefix = "");
 
-/// Throws std::invalid_argument, naming field, range and value, unless every number is in its documented range.
+/// Throws std::invalid_argument, naming field, range and value, unless every number is in its documented
+/// range.
 void validate(const Material& material);
 
 /// The stated mapping from metallic-roughness factors to diffuse + lobes; fills both from `material.source`.
 ///   m = max(roughness^2, MIN_ROUGHNESS), f0 = min(((ior-1)/(ior+1))^2 specular_color, 1), alpha = 0.5,
 ///   base lobe: r0 = mix(specular f0, base, metallic), white at grazing scaled by mix(specular, 1, metallic);
 ///   diffuse = base (1 - metallic) (1 - max(specular f0));
-///   anisotropy: m_x = mix(m, 1, strength^2), m_y = m; clearcoat: a lobe of r0 .04 and weight = factor on top.
+///   anisotropy: m_x = mix(m, 1, strength^2), m_y = m; clearcoat: a lobe of r0 .04 and weight = factor on
+///   top.
 void map_metallic_roughness(Material& material);
 
 } // namespace burnish

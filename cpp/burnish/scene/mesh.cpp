@@ -12,10 +12,12 @@ template <typename Vector>
 void require_array(const char* name, const std::vector<Vector>& values, size_t count, bool is_optional) {
     if (is_optional && values.empty()) return;
     if (values.size() != count)
-        throw std::invalid_argument(message(name, ": expected as many as positions (", count, "), got ", values.size()));
+        throw std::invalid_argument(
+            message(name, ": expected as many as positions (", count, "), got ", values.size()));
     for (size_t i = 0; i < values.size(); ++i)
         if (!is_finite(values[i]))
-            throw std::invalid_argument(message(name, ": expected finite numbers, got a non-finite one at ", i));
+            throw std::invalid_argument(
+                message(name, ": expected finite numbers, got a non-finite one at ", i));
 }
 
 glm::dvec3 face_normal(const Mesh& mesh, size_t first_index) {
@@ -31,7 +33,8 @@ glm::vec3 unit_or_z(const glm::dvec3& v) {
     return length > 0.0 ? glm::vec3(v / length) : glm::vec3(0.0f, 0.0f, 1.0f);
 }
 
-template <typename Vector> std::vector<Vector> gather(const std::vector<Vector>& values, const std::vector<uint32_t>& from) {
+template <typename Vector>
+std::vector<Vector> gather(const std::vector<Vector>& values, const std::vector<uint32_t>& from) {
     std::vector<Vector> gathered;
     if (values.empty()) return gathered;
     gathered.reserve(from.size());
@@ -56,10 +59,12 @@ void validate(const Mesh& mesh) {
             throw std::invalid_argument(message("normals: expected unit length, got ", length, " at ", i));
     }
     if (mesh.indices.size() % 3 != 0)
-        throw std::invalid_argument(message("indices: expected three per triangle, got ", mesh.indices.size()));
+        throw std::invalid_argument(
+            message("indices: expected three per triangle, got ", mesh.indices.size()));
     for (uint32_t index : mesh.indices)
         if (index >= count)
-            throw std::invalid_argument(message("indices: expected each below the vertex count ", count, ", got ", index));
+            throw std::invalid_argument(
+                message("indices: expected each below the vertex count ", count, ", got ", index));
 }
 
 void compute_normals(Mesh& mesh) {
@@ -102,8 +107,10 @@ void compute_tangents_around_y(Mesh& mesh) {
     for (size_t i = 0; i < mesh.positions.size(); ++i) {
         glm::dvec3 normal = mesh.normals[i];
         glm::dvec3 position = mesh.positions[i];
-        // Growing longitude; on the axis, where it is undefined, level and across the normal; at a pole along x.
-        glm::dvec3 candidates[] = {{position.z, 0.0, -position.x}, {normal.z, 0.0, -normal.x}, {1, 0, 0}, {0, 0, 1}};
+        // Growing longitude; on the axis, where it is undefined, level and across the normal; at a pole along
+        // x.
+        glm::dvec3 candidates[] = {
+            {position.z, 0.0, -position.x}, {normal.z, 0.0, -normal.x}, {1, 0, 0}, {0, 0, 1}};
         for (glm::dvec3 candidate : candidates) {
             double length = glm::length(candidate);
             if (!(length > 1e-30)) continue;

@@ -15,17 +15,19 @@ constexpr float MAPPED_ALPHA = 0.5f;
 
 } // namespace
 
-float slope_of_roughness(float roughness) { return std::max(roughness * roughness, MIN_ROUGHNESS); }
+float slope_of_roughness(float roughness) {
+    return std::max(roughness * roughness, MIN_ROUGHNESS);
+}
 
-// The Kurt lobe's Fresnel term times its weight is weight (r0 + (1 - r0)(1 - u)^5): weight r0 at normal incidence and
-// weight at grazing. glTF asks for
-//   f0  = mix(specular d, base, metallic)   at normal incidence, d = min(((ior - 1)/(ior + 1))^2 specular_color, 1),
-//   f90 = mix(specular, 1, metallic)        at grazing, white;
+// The Kurt lobe's Fresnel term times its weight is weight (r0 + (1 - r0)(1 - u)^5): weight r0 at normal
+// incidence and weight at grazing. glTF asks for
+//   f0  = mix(specular d, base, metallic)   at normal incidence, d = min(((ior - 1)/(ior + 1))^2
+//   specular_color, 1), f90 = mix(specular, 1, metallic)        at grazing, white;
 // so weight = f90 and r0 = f0 / f90 (f0 <= f90 in every channel, since d <= 1 and base <= 1).
 // What a dielectric does not reflect at normal incidence reaches its diffuse base:
 //   diffuse = base (1 - metallic) (1 - max over channels of specular d).
-// Beckmann slopes: m = max(roughness^2, MIN_ROUGHNESS); with anisotropy of strength s (KHR_materials_anisotropy)
-// m_x = mix(m, 1, s^2) along the tangent, m_y = m.
+// Beckmann slopes: m = max(roughness^2, MIN_ROUGHNESS); with anisotropy of strength s
+// (KHR_materials_anisotropy) m_x = mix(m, 1, s^2) along the tangent, m_y = m.
 MappedSurface map_metallic_roughness(const MetallicRoughnessPoint& point) {
     float ratio = (point.ior - 1.0f) / (point.ior + 1.0f);
     glm::vec3 dielectric = point.specular * glm::min(ratio * ratio * point.specular_color, glm::vec3(1.0f));
@@ -33,8 +35,8 @@ MappedSurface map_metallic_roughness(const MetallicRoughnessPoint& point) {
     float f90 = glm::mix(point.specular, 1.0f, point.metallic);
 
     MappedSurface mapped;
-    mapped.diffuse = point.base * (1.0f - point.metallic)
-                     * (1.0f - std::max({dielectric.x, dielectric.y, dielectric.z}));
+    mapped.diffuse =
+        point.base * (1.0f - point.metallic) * (1.0f - std::max({dielectric.x, dielectric.y, dielectric.z}));
     mapped.r0 = f90 > 0.0f ? glm::clamp(f0 / f90, 0.0f, 1.0f) : glm::vec3(0.0f);
     mapped.weight = f90;
     float m = slope_of_roughness(point.roughness);

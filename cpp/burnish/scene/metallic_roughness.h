@@ -1,4 +1,5 @@
-// Metallic-roughness to diffuse + Kurt lobe on plain values. glsl/lib/metallic_roughness.glsl holds the same function.
+// Metallic-roughness to diffuse + Kurt lobe on plain values. glsl/lib/metallic_roughness.glsl holds the same
+// function.
 #pragma once
 
 #include <glm/glm.hpp>

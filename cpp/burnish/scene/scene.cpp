@@ -18,16 +18,20 @@ struct Box {
 void extend(Box& box, const Scene& scene, const Object& object) {
     constexpr float LARGEST = std::numeric_limits<float>::max();
     for (const glm::vec3& position : scene.meshes.at(object.mesh).positions) {
-        glm::vec3 world = glm::clamp(glm::vec3(object.world_from_object * glm::vec4(position, 1.0f)), -LARGEST, LARGEST);
+        glm::vec3 world =
+            glm::clamp(glm::vec3(object.world_from_object * glm::vec4(position, 1.0f)), -LARGEST, LARGEST);
         box.low = glm::min(box.low, world);
         box.high = glm::max(box.high, world);
     }
 }
 
-Bounds bounds_of(const Box& box) { return box.is_empty() ? Bounds{glm::vec3(-1.0f), glm::vec3(1.0f)} : Bounds{box.low, box.high}; }
+Bounds bounds_of(const Box& box) {
+    return box.is_empty() ? Bounds{glm::vec3(-1.0f), glm::vec3(1.0f)} : Bounds{box.low, box.high};
+}
 
 /// Runs a check and puts `where` before its message.
-template <typename Check> void within(const std::string& where, const Check& check) {
+template <typename Check>
+void within(const std::string& where, const Check& check) {
     try {
         check();
     } catch (const std::invalid_argument& error) {
@@ -38,12 +42,13 @@ template <typename Check> void within(const std::string& where, const Check& che
 void validate_textures(const Scene& scene, const MetallicRoughness& source) {
     for (const TextureUse* use :
          {&source.base_color_texture, &source.metallic_roughness_texture, &source.normal_texture,
-          &source.occlusion_texture, &source.emissive_texture, &source.specular_texture, &source.specular_color_texture,
-          &source.anisotropy_texture, &source.clearcoat_texture, &source.clearcoat_roughness_texture}) {
+          &source.occlusion_texture, &source.emissive_texture, &source.specular_texture,
+          &source.specular_color_texture, &source.anisotropy_texture, &source.clearcoat_texture,
+          &source.clearcoat_roughness_texture}) {
         if (!use->is_used()) continue;
         if (static_cast<size_t>(use->image) >= scene.images.size())
-            throw std::invalid_argument(
-                message("source.texture.image: expected an index below ", scene.images.size(), ", got ", use->image));
+            throw std::invalid_argument(message("source.texture.image: expected an index below ",
+                                                scene.images.size(), ", got ", use->image));
         if (use->uv_set > 1)
             throw std::invalid_argument(message("source.texture.uv_set: expected 0 or 1, got ", use->uv_set));
     }
@@ -60,7 +65,8 @@ Bounds Scene::bounds() const {
 
 Bounds Scene::object_bounds(uint32_t object) const {
     if (object >= objects.size())
-        throw std::invalid_argument(message("object: expected an index below ", objects.size(), ", got ", object));
+        throw std::invalid_argument(
+            message("object: expected an index below ", objects.size(), ", got ", object));
     Box box;
     extend(box, *this, objects[object]);
     return bounds_of(box);
@@ -68,7 +74,8 @@ Bounds Scene::object_bounds(uint32_t object) const {
 
 Camera Scene::default_camera() const {
     constexpr float FOV = 0.6f, MARGIN = 1.08f;
-    const glm::vec3 toward_eye = glm::normalize(glm::vec3(0.45f, 0.4f, 1.0f)); // three quarters, a little above
+    const glm::vec3 toward_eye =
+        glm::normalize(glm::vec3(0.45f, 0.4f, 1.0f)); // three quarters, a little above
     Bounds box = bounds();
     glm::vec3 center = 0.5f * box.low + 0.5f * box.high; // not of the sum, which may overflow
     glm::vec3 half = 0.5f * box.high - 0.5f * box.low;
@@ -100,8 +107,8 @@ uint32_t Scene::find_object(const std::string& object_name) const {
     for (size_t i = 0; i < std::min(objects.size(), LISTED); ++i)
         names += (i ? ", \"" : "\"") + objects[i].name + "\"";
     if (objects.size() > LISTED) names += message(" and ", objects.size() - LISTED, " more");
-    throw std::invalid_argument(message("object: expected one of ", names.empty() ? "no objects" : names, ", got \"",
-                                        object_name, "\""));
+    throw std::invalid_argument(message("object: expected one of ", names.empty() ? "no objects" : names,
+                                        ", got \"", object_name, "\""));
 }
 
 void validate(const Scene& scene) {
@@ -128,10 +135,11 @@ void validate(const Scene& scene) {
             throw std::invalid_argument(
                 message(where, "mesh: expected an index below ", scene.meshes.size(), ", got ", object.mesh));
         if (object.material >= scene.materials.size())
-            throw std::invalid_argument(
-                message(where, "material: expected an index below ", scene.materials.size(), ", got ", object.material));
+            throw std::invalid_argument(message(where, "material: expected an index below ",
+                                                scene.materials.size(), ", got ", object.material));
         if (!is_finite(object.world_from_object))
-            throw std::invalid_argument(where + "world_from_object: expected finite numbers, got a non-finite one");
+            throw std::invalid_argument(where +
+                                        "world_from_object: expected finite numbers, got a non-finite one");
     }
 }
 

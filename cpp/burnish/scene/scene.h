@@ -40,8 +40,8 @@ struct Scene {
     std::vector<Object> objects;
     std::vector<Camera> cameras;
     std::shared_ptr<const Environment> environment;
-    bool show_background = true;           ///< draw the environment where no object is
-    std::vector<std::string> warnings;     ///< what was repaired or left out while loading, a sentence each
+    bool show_background = true;       ///< draw the environment where no object is
+    std::vector<std::string> warnings; ///< what was repaired or left out while loading, a sentence each
     std::vector<std::string> ignored_extensions; ///< optional glTF extensions that have no effect here
 
     Bounds bounds() const; ///< of all objects in the world; the unit box about 0 when there are none

@@ -1,13 +1,15 @@
-// Tangent frames by the rules of MikkTSpace (M. Mikkelsen, "Simulation of Wrinkled Surfaces Revisited", 2008), written
-// from the rules:
+// Tangent frames by the rules of MikkTSpace (M. Mikkelsen, "Simulation of Wrinkled Surfaces Revisited",
+// 2008), written from the rules:
 //   1. corners with equal position, normal and uv are one point;
 //   2. a face's tangent is dP/du; its handedness is the sign of its area in uv;
-//   3. around a point, faces of equal handedness that share an edge form a group; a face without area in uv joins a
+//   3. around a point, faces of equal handedness that share an edge form a group; a face without area in uv
+//   joins a
 //      neighbouring group of either handedness;
-//   4. a group's tangent is the sum of its faces' tangents, each projected into the plane of the point's normal, made
+//   4. a group's tangent is the sum of its faces' tangents, each projected into the plane of the point's
+//   normal, made
 //      unit and weighted by the angle the face spans at the point, measured in that plane.
-// Differences from the reference code: an edge shared by more than two faces joins all of them, and a group that holds
-// only faces without area in uv gets any unit vector across the normal.
+// Differences from the reference code: an edge shared by more than two faces joins all of them, and a group
+// that holds only faces without area in uv gets any unit vector across the normal.
 #include <algorithm>
 #include <array>
 #include <cstring>
@@ -30,7 +32,8 @@ struct Face {
 };
 
 struct ArrayHash {
-    template <size_t N> size_t operator()(const std::array<uint32_t, N>& words) const {
+    template <size_t N>
+    size_t operator()(const std::array<uint32_t, N>& words) const {
         uint64_t hash = 0xcbf29ce484222325u;
         for (uint32_t word : words)
             hash = (hash ^ word) * 0x9e3779b97f4a7c15u, hash ^= hash >> 29;
@@ -58,8 +61,14 @@ std::vector<uint32_t> weld(const Mesh& mesh, const std::vector<glm::vec2>& uv) {
     seen.reserve(mesh.positions.size());
     std::vector<uint32_t> points(mesh.positions.size());
     for (size_t i = 0; i < points.size(); ++i) {
-        float numbers[8] = {mesh.positions[i].x, mesh.positions[i].y, mesh.positions[i].z, mesh.normals[i].x,
-                            mesh.normals[i].y,   mesh.normals[i].z,   uv[i].x,             uv[i].y};
+        float numbers[8] = {mesh.positions[i].x,
+                            mesh.positions[i].y,
+                            mesh.positions[i].z,
+                            mesh.normals[i].x,
+                            mesh.normals[i].y,
+                            mesh.normals[i].z,
+                            uv[i].x,
+                            uv[i].y};
         for (float& number : numbers)
             number += 0.0f; // -0 and 0 are one point
         std::array<uint32_t, 8> key;
@@ -91,7 +100,9 @@ glm::dvec3 project(const glm::dvec3& v, const glm::dvec3& normal) {
 struct Side {
     uint32_t low_point, high_point, low_corner, high_corner;
     uint32_t face() const { return low_corner / 3; }
-    bool is_along(const Side& other) const { return low_point == other.low_point && high_point == other.high_point; }
+    bool is_along(const Side& other) const {
+        return low_point == other.low_point && high_point == other.high_point;
+    }
 };
 
 /// All sides, those along one edge next to each other.
@@ -105,7 +116,8 @@ std::vector<Side> sort_sides(const std::vector<uint32_t>& corner_points) {
         if (b < a) sides.push_back({b, a, next, corner});
     }
     std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) {
-        return std::tie(a.low_point, a.high_point, a.low_corner) < std::tie(b.low_point, b.high_point, b.low_corner);
+        return std::tie(a.low_point, a.high_point, a.low_corner) <
+               std::tie(b.low_point, b.high_point, b.low_corner);
     });
     return sides;
 }
@@ -119,7 +131,8 @@ void spread_handedness(const std::vector<Side>& sides, std::vector<Face>& faces)
             ++end;
         for (size_t i = begin + 1; i < end; ++i) { // a chain is enough to pass the handedness along
             uint32_t a = sides[i - 1].face(), b = sides[i].face();
-            if (faces[a].handedness != Handedness::unknown && faces[b].handedness != Handedness::unknown) continue;
+            if (faces[a].handedness != Handedness::unknown && faces[b].handedness != Handedness::unknown)
+                continue;
             neighbours[a].push_back(b);
             neighbours[b].push_back(a);
             has_unknown = true;
@@ -158,11 +171,13 @@ DisjointSets group_corners(const std::vector<uint32_t>& corner_points, std::vect
 }
 
 glm::dvec3 any_across(const glm::dvec3& normal) {
-    return glm::normalize(glm::cross(normal, std::abs(normal.x) < 0.5 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0)));
+    return glm::normalize(
+        glm::cross(normal, std::abs(normal.x) < 0.5 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0)));
 }
 
 /// Splits vertices so that corners of different groups differ, and stores the tangents.
-void assign(Mesh& mesh, DisjointSets& groups, const std::vector<glm::dvec3>& sums, const std::vector<Face>& faces) {
+void assign(Mesh& mesh, DisjointSets& groups, const std::vector<glm::dvec3>& sums,
+            const std::vector<Face>& faces) {
     constexpr uint32_t NONE = ~0u;
     size_t vertex_count = mesh.positions.size();
     struct Copy {
@@ -194,7 +209,8 @@ void assign(Mesh& mesh, DisjointSets& groups, const std::vector<glm::dvec3>& sum
             glm::dvec3 normal = mesh.normals[vertex];
             glm::dvec3 tangent = project(sums[group], normal);
             if (tangent == glm::dvec3(0.0)) tangent = any_across(normal);
-            // Green of a glTF normal map points to the picture's top, where v falls: the sign is opposite to (u, v)'s.
+            // Green of a glTF normal map points to the picture's top, where v falls: the sign is opposite to
+            // (u, v)'s.
             float w = faces[corner / 3].handedness == Handedness::same ? -1.0f : 1.0f;
             mesh.tangents[copies[entry].vertex] = glm::vec4(glm::vec3(tangent), w);
         }
@@ -211,9 +227,11 @@ void compute_tangents(Mesh& mesh, uint32_t uv_set) {
     const std::vector<glm::vec2> uv = uv_set == 0 ? mesh.uv0 : mesh.uv1;
     if (uv_set > 1) throw std::invalid_argument(message("uv_set: expected 0 or 1, got ", uv_set));
     if (uv.size() != mesh.positions.size() || uv.empty())
-        throw std::invalid_argument(message("uv", uv_set, ": expected as many as positions, got ", uv.size()));
+        throw std::invalid_argument(
+            message("uv", uv_set, ": expected as many as positions, got ", uv.size()));
     if (mesh.normals.size() != mesh.positions.size())
-        throw std::invalid_argument(message("normals: expected as many as positions, got ", mesh.normals.size()));
+        throw std::invalid_argument(
+            message("normals: expected as many as positions, got ", mesh.normals.size()));
 
     std::vector<uint32_t> points = weld(mesh, uv);
     std::vector<uint32_t> corner_points(mesh.indices.size());
@@ -232,7 +250,8 @@ void compute_tangents(Mesh& mesh, uint32_t uv_set) {
         glm::dvec3 last = mesh.positions[mesh.indices[face * 3 + (corner + 2) % 3]];
         glm::dvec3 normal = mesh.normals[mesh.indices[corner]];
         double cosine = glm::dot(project(next - here, normal), project(last - here, normal));
-        sums[groups.find(corner)] += std::acos(std::clamp(cosine, -1.0, 1.0)) * project(faces[face].tangent, normal);
+        sums[groups.find(corner)] +=
+            std::acos(std::clamp(cosine, -1.0, 1.0)) * project(faces[face].tangent, normal);
     }
     assign(mesh, groups, sums, faces);
 }

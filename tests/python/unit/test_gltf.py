@@ -185,3 +185,14 @@ def test_gltf_picture_that_inflates_without_end_is_stopped(tmp_path):
     (tmp_path / "bomb.png").write_bytes(png(1, 1, bytes(100_000_000)))
     (sentence,) = picture_warnings(write_textured(tmp_path, "bomb.png"))
     assert "damaged picture" in sentence
+
+
+def test_gltf_jpeg_with_an_impossible_huffman_table_is_refused(tmp_path):
+    path = tmp_path / "huffman.jpg"
+    Image.new("RGB", (8, 8)).save(path)
+    jpeg = bytearray(path.read_bytes())
+    table = jpeg.index(b"\xff\xc4") + 5
+    jpeg[table : table + 16] = b"\xff" * 16
+    path.write_bytes(jpeg)
+    (sentence,) = picture_warnings(write_textured(tmp_path, path.name))
+    assert "a Huffman table of more than 256 codes" in sentence
