@@ -12,6 +12,7 @@ void bind_scene(py::module_& m);
 void bind_sampling(py::module_& m);
 void bind_render(py::module_& m);
 void bind_shared(py::module_& m);
+void bind_probe(py::module_& m);
 } // namespace burnish
 
 PYBIND11_MODULE(_core, m) {
@@ -25,4 +26,5 @@ PYBIND11_MODULE(_core, m) {
     burnish::bind_sampling(m);
     burnish::bind_render(m);
     burnish::bind_shared(m);
+    burnish::bind_probe(m);
 }

@@ -1,0 +1,48 @@
+// Single shader functions, for tests.
+#include <span>
+
+#include <pybind11/pybind11.h>
+
+#include "burnish/render/probe.h"
+#include "burnish/render/renderer.h"
+#include "numpy.h"
+#include "shared/probe.h"
+
+namespace burnish {
+namespace {
+
+py::array_t<float> probe(const render::Renderer& renderer, const std::string& library, uint32_t function,
+                         const py::array& arguments) {
+    const auto checked = require_array<float>(arguments, "arguments", {any, any, 4});
+    std::vector<float> results;
+    {
+        const py::gil_scoped_release release;
+        const std::span<const float> values(checked.data(), static_cast<size_t>(checked.size()));
+        results = render::run_probe(renderer.device(), library, function, values, static_cast<uint32_t>(checked.shape(1)));
+    }
+    return make_array(std::move(results), {checked.shape(0), shared::PROBE_RESULTS, 4});
+}
+
+} // namespace
+
+void bind_probe(py::module_& m) {
+    m.def("probe", &probe, py::arg("device"), py::arg("library"), py::arg("function"), py::arg("arguments"),
+          R"(Run one function of the shader library over a list of items; for tests.
+
+Parameters
+----------
+device : Device
+library : str
+    File of glsl/lib, without its ending.
+function : int
+    Number of the function in glsl/shared/probe.h.
+arguments : (n, k, 4) float32, k in 1..16
+    Integers go in as the floats of the same bits.
+
+Returns
+-------
+results : (n, 3, 4) float32
+    What the function leaves unwritten is 0.)");
+}
+
+} // namespace burnish
