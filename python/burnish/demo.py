@@ -1,4 +1,4 @@
-"""What ``scripts/demo`` runs: glossy objects under a real sky, the price of the picture, and its error."""
+"""What ``scripts/demo`` runs: glossy objects in a real place, the price of the picture, and its error."""
 
 import argparse
 import sys
@@ -12,9 +12,11 @@ from burnish import Camera, Environment, Frame, Material, Mesh, Reference, Regul
 from burnish._progress import progress_bar
 from burnish.builtin import COPPER, GOLD, STEEL, lacquer, metal
 
-WORLD = Path("/usr/share/blender/datafiles/studiolights/world/sunset.exr")
+WORLD = Path("/usr/share/blender/datafiles/studiolights/world/courtyard.exr")
 """From Debian's package blender-data; the built-in studio stands in where it is absent."""
 
+WORLD_TURN_DEGREES = 70.0
+TEAL = (0.3, 0.6, 0.58)
 COMPARED_SIZE = (180, 320)
 
 
@@ -28,9 +30,6 @@ def make_environment(path: Path) -> Environment:
     return builtin.make_environment("studio")
 
 
-WORLD_TURN_DEGREES = 205.0
-
-
 def _at(x: float, y: float, z: float, scale: float = 1.0, tilt: float = 0.0) -> NDArray[np.float64]:
     """Place at a point: scale, then tilt by radians about the x axis."""
     matrix = np.diag([scale, scale, scale, 1.0])
@@ -41,19 +40,18 @@ def _at(x: float, y: float, z: float, scale: float = 1.0, tilt: float = 0.0) -> 
 
 
 def make_scene() -> Scene:
-    """Arrange a brushed shader ball, spheres and rings on a polished floor."""
+    """Arrange a brushed shader ball among spheres and rings, isotropic and brushed."""
     scene = Scene()
     ball = Scene.shader_ball(Material()).meshes[0]
-    sphere, ring = Mesh.sphere(), Mesh.torus(1.0, 0.28)
-    scene.add(Mesh.plane(60.0), lacquer((0.16, 0.165, 0.18), 0.12), name="floor")
-    scene.add(ball, metal(COPPER, (0.28, 0.06)), _at(0.0, 0.0, 0.0), "brushed ball")
-    scene.add(sphere, metal(GOLD, (0.12, 0.12)), _at(-2.45, 0.8, 0.35, 0.8), "gold")
-    scene.add(sphere, lacquer((0.42, 0.02, 0.03), 0.05), _at(2.35, 0.75, 0.5, 0.75), "red lacquer")
-    scene.add(sphere, metal(STEEL, (0.03, 0.03)), _at(-1.35, 0.45, 1.75, 0.45), "steel")
-    scene.add(sphere, lacquer((0.02, 0.09, 0.32), 0.15), _at(1.3, 0.4, 1.85, 0.4), "blue lacquer")
-    scene.add(ring, metal(STEEL, (0.35, 0.07)), _at(-4.1, 1.2, -1.3, 0.95, 1.25), "brushed ring")
-    scene.add(ring, metal((0.35, 0.62, 0.6), (0.2, 0.2)), _at(4.05, 1.2, -1.3, 0.95, 1.25), "teal ring")
-    scene.add_camera(Camera.look_at((0.0, 2.15, 8.2), (0.0, 0.98, 0.0), vertical_fov=0.52))
+    sphere, ring = Mesh.sphere(), Mesh.torus(1.0, 0.3)
+    scene.add(ball, metal(COPPER, (0.3, 0.06)), _at(0.0, -1.1, 0.0), "brushed ball")
+    scene.add(sphere, metal(GOLD, (0.12, 0.12)), _at(-2.35, 0.55, 0.2, 0.85), "gold")
+    scene.add(sphere, lacquer((0.42, 0.015, 0.02), 0.05), _at(2.35, 0.55, 0.2, 0.85), "red lacquer")
+    scene.add(sphere, metal(STEEL, (0.04, 0.04)), _at(-1.4, -0.75, 0.9, 0.45), "steel")
+    scene.add(sphere, lacquer((0.015, 0.06, 0.3), 0.2), _at(1.4, -0.75, 0.9, 0.45), "blue lacquer")
+    scene.add(ring, metal(STEEL, (0.4, 0.05)), _at(-3.25, -0.65, -0.4, 0.62, 1.1), "brushed ring")
+    scene.add(ring, metal(TEAL, (0.22, 0.22)), _at(3.25, -0.65, -0.4, 0.62, 1.1), "teal ring")
+    scene.add_camera(Camera.look_at((0.0, 0.5, 9.0), (0.0, 0.02, 0.0), vertical_fov=0.5))
     return scene
 
 

@@ -18,7 +18,7 @@ Status = Literal["ok", "note", "missing", "failed"]
 
 INSTALL_DRIVER = "sudo apt-get install mesa-vulkan-drivers"
 INSTALL_LAYERS = "sudo apt-get install vulkan-validationlayers"
-SHOWN_LIMITS = ("maxImageDimension2D", "maxImageDimensionCube", "maxComputeWorkGroupInvocations")
+SHOWN_LIMITS = ("max_image_dimension_2d", "max_image_dimension_cube", "max_allocation_bytes")
 
 
 @dataclass

@@ -156,6 +156,8 @@ def render(
     height, width = _require_size(size)
     _require_spp(spp)
     sampler = _core.Regular() if sampler is None else sampler
+    if camera is None and scene.cameras:
+        camera = scene.cameras[0]
     device = device or default_device()
     data = _core.render(device, scene, camera, height, width, sampler, int(spp), filter, progress)
     return Frame(data.color, data.alpha, data.depth, data.normal, Report(data.report))

@@ -109,4 +109,4 @@ def test_a_frame_has_the_documented_shapes(device):
 def test_a_device_says_what_it_is(device):
     assert device.name and device.driver
     assert isinstance(device.is_software, bool)
-    assert device.limits["maxImageDimension2D"] >= 4096
+    assert device.limits["max_image_dimension_2d"] >= 4096

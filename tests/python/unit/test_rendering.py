@@ -108,3 +108,21 @@ def test_the_default_device_is_opened_once(monkeypatch):
     with ThreadPoolExecutor(8) as pool:
         found = set(pool.map(lambda _: _device.default_device(), range(64)))
     assert len(found) == len(opened) == 1
+
+
+def test_render_takes_the_scenes_first_camera(material, monkeypatch):
+    scene = burnish.Scene.sphere(material)
+    for name in ("first", "second"):
+        scene.add_camera(burnish.Camera(np.eye(4), name=name))
+
+    class SeenError(Exception):
+        pass
+
+    def record(device, scene, camera, *others):
+        raise SeenError(camera.name)
+
+    monkeypatch.setattr("burnish._core.render", record)
+    with pytest.raises(SeenError, match="first"):
+        burnish.render(scene, device=object())
+    with pytest.raises(SeenError, match="second"):
+        burnish.render(scene, scene.cameras[1], device=object())
