@@ -17,7 +17,7 @@ WORLD = Path("/usr/share/blender/datafiles/studiolights/world/courtyard.exr")
 
 WORLD_TURN_DEGREES = 70.0
 TEAL = (0.3, 0.6, 0.58)
-COMPARED_SIZE = (180, 320)
+COMPARED_SIZE = (135, 240)
 
 
 def make_environment(path: Path) -> Environment:
