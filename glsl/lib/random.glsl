@@ -22,8 +22,11 @@ vec2 recurrence_2d(uint index, uint seed) {
     return vec2(unit_from_uint(x), unit_from_uint(y));
 }
 
+// All 32 bits of its first coordinate, for choices among more than 2^24.
+uint recurrence_3d_x(uint index, uint seed) { return index * 3518319155u + hash_uint(seed ^ 0x68bc21ebu); }
+
 vec3 recurrence_3d(uint index, uint seed) {
-    uint x = index * 3518319155u + hash_uint(seed ^ 0x68bc21ebu);
+    uint x = recurrence_3d_x(index, seed);
     uint y = index * 2882110345u + hash_uint(seed ^ 0x02e5be93u);
     uint z = index * 2360945575u + hash_uint(seed ^ 0x967a889bu);
     return vec3(unit_from_uint(x), unit_from_uint(y), unit_from_uint(z));

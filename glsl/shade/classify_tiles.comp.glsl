@@ -1,12 +1,14 @@
-// Lists, for every shade class, the 8x8 tiles that hold one of its pixels. One group is one tile.
+// Lists, for every shade class, the 8x8 tiles that hold one of its pixels. One invocation is one tile: barriers and shared
+// memory would cost a CPU device more than the loads.
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_control_flow_attributes : require
 
 #include "lib/frame.glsl"
 #include "shared/constants.h"
 #include "shared/records.h"
 
-layout(local_size_x = TILE_SIZE, local_size_y = TILE_SIZE) in;
+layout(local_size_x = 64) in;
 layout(constant_id = SPEC_CLASS_COUNT) const uint CLASS_COUNT = 1u;
 layout(constant_id = SPEC_SHADE_CLASS) const uint BACKGROUND_CLASS = MAX_SHADE_CLASSES; // not below CLASS_COUNT: no background
 
@@ -17,21 +19,28 @@ layout(binding = BINDING_SURFACE, rg32ui) uniform readonly uimage2D surface_imag
 layout(std430, binding = BINDING_TILES) writeonly buffer Tiles { uint tiles[]; };
 layout(std430, binding = BINDING_TILE_COUNTS) buffer TileCounts { uvec4 tile_counts[]; };
 
-shared uint classes_here;
+uint class_of(uvec2 surface) {
+    if (!has_surface(surface)) return BACKGROUND_CLASS;
+    return BACKGROUND_CLASS == 1u ? 0u : materials[unpack_material(surface)].shade_class; // one class needs no look-up
+}
 
 void main() {
-    if (gl_LocalInvocationIndex == 0u) classes_here = 0u;
-    barrier();
-    uvec2 pixel = gl_WorkGroupID.xy * TILE_SIZE + gl_LocalInvocationID.xy;
-    if (pixel.x < view.width_px && pixel.y < view.height_px) {
-        uvec2 surface = imageLoad(surface_image, ivec2(pixel)).xy;
-        uint shade_class = has_surface(surface) ? materials[unpack_material(surface)].shade_class : BACKGROUND_CLASS;
-        if (shade_class < CLASS_COUNT) atomicOr(classes_here, 1u << shade_class);
+    uvec2 size = uvec2(view.width_px, view.height_px);
+    uint tiles_per_row = (size.x + TILE_SIZE - 1u) / TILE_SIZE;
+    uint index = gl_GlobalInvocationID.x;
+    if (index >= push.tile_capacity) return;
+    uvec2 tile = uvec2(index % tiles_per_row, index / tiles_per_row);
+    uint classes_here = 0u;
+    for (uint row = 0u; row < TILE_SIZE; ++row) {
+        [[unroll]] for (uint column = 0u; column < TILE_SIZE; ++column) {
+            uvec2 pixel = min(tile * TILE_SIZE + uvec2(column, row), size - 1u);
+            uint shade_class = class_of(imageLoad(surface_image, ivec2(pixel)).xy);
+            classes_here |= shade_class < CLASS_COUNT ? 1u << shade_class : 0u;
+        }
     }
-    barrier();
-    uint shade_class = gl_LocalInvocationIndex;
-    if (shade_class < CLASS_COUNT && (classes_here & (1u << shade_class)) != 0u) {
+    for (uint shade_class = 0u; shade_class < CLASS_COUNT; ++shade_class) {
+        if ((classes_here & (1u << shade_class)) == 0u) continue;
         uint slot = atomicAdd(tile_counts[shade_class].w, 1u);
-        tiles[shade_class * push.tile_capacity + slot] = gl_WorkGroupID.x | (gl_WorkGroupID.y << 16);
+        tiles[shade_class * push.tile_capacity + slot] = tile.x | (tile.y << 16);
     }
 }

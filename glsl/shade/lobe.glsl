@@ -111,16 +111,20 @@ void add_lookup(inout LobeSums sums, Lookup lookup, float layer) {
 // Lookups go in phases of four: first the arithmetic of all, then the loads of all, so that a CPU can overlap them.
 const uint PHASE = 4u;
 
+// Unrolled by hand: SAMPLE_COUNT is a constant, so what lies beyond it is not compiled.
+#define PLACE(k, lookup) if (SAMPLE_COUNT > uint(k)) lookup = place_lookup(v, SAMPLE_ENTRY(k));
+#define ADD(k, lookup) if (SAMPLE_COUNT > uint(k)) add_lookup(sums, lookup, v.layer);
+#define GATHER_PHASE(a, b, c, d)                                                                                       \
+    PLACE(a, l0) PLACE(b, l1) PLACE(c, l2) PLACE(d, l3)                                                                \
+    ADD(a, l0) ADD(b, l1) ADD(c, l2) ADD(d, l3)
+
 LobeSums gather_constant(LobeView v) {
-    vec4 samples[MAX_CONSTANT_SAMPLES] = SAMPLE_ENTRIES;
     LobeSums sums = LobeSums(vec3(0.0), vec3(0.0), 0.0, 0.0, 0.0);
-    [[unroll]] for (uint k = 0u; k < SAMPLE_COUNT; k += PHASE) {
-        Lookup lookups[PHASE];
-        [[unroll]] for (uint j = 0u; j < PHASE; ++j)
-            if (k + j < SAMPLE_COUNT) lookups[j] = place_lookup(v, samples[k + j]);
-        [[unroll]] for (uint j = 0u; j < PHASE; ++j)
-            if (k + j < SAMPLE_COUNT) add_lookup(sums, lookups[j], v.layer);
-    }
+    Lookup l0, l1, l2, l3;
+    GATHER_PHASE(0, 1, 2, 3) GATHER_PHASE(4, 5, 6, 7) GATHER_PHASE(8, 9, 10, 11) GATHER_PHASE(12, 13, 14, 15)
+    GATHER_PHASE(16, 17, 18, 19) GATHER_PHASE(20, 21, 22, 23) GATHER_PHASE(24, 25, 26, 27) GATHER_PHASE(28, 29, 30, 31)
+    GATHER_PHASE(32, 33, 34, 35) GATHER_PHASE(36, 37, 38, 39) GATHER_PHASE(40, 41, 42, 43) GATHER_PHASE(44, 45, 46, 47)
+    GATHER_PHASE(48, 49, 50, 51) GATHER_PHASE(52, 53, 54, 55) GATHER_PHASE(56, 57, 58, 59) GATHER_PHASE(60, 61, 62, 63)
     return sums;
 }
 

@@ -63,18 +63,17 @@ float texel_pdf(vec3 w, MapRecord map) {
     return texel_alias[map.alias_begin + (face * face_size + texel.y) * face_size + texel.x].probability / texel_solid_angle(face_texels, w);
 }
 
-// A direction in proportion to the map's light: a texel by its alias table, a place in it at random.
-vec3 draw_texel(vec3 x, MapRecord map) {
+// A direction in proportion to the map's light: a texel by its alias table, a place in it at random. The texel comes from 32
+// bits: a large map has six million, which 24 bits would draw unevenly.
+vec3 draw_texel(uint index, uint seed, MapRecord map) {
     uint face_size = map.face_size;
-    uint count = 6u * face_size * face_size;
-    float scaled = x.x * float(count);
-    uint texel = min(uint(scaled), count - 1u);
-    // The fraction left of one float has few bits for large maps: mix in bits of the place, which are independent of it.
-    float fraction = fract(x.x * 4096.0 + x.y * 1024.0 + x.z);
+    uint texel, fraction;
+    umulExtended(recurrence_3d_x(index, seed), 6u * face_size * face_size, texel, fraction);
     TexelAlias drawn = texel_alias[map.alias_begin + texel];
-    if (fraction >= drawn.threshold) texel = drawn.alias;
+    if (unit_from_uint(hash_uint(fraction)) >= drawn.threshold) texel = drawn.alias;
+    vec2 place = recurrence_3d(index, seed).yz;
     uint in_face = texel % (face_size * face_size);
-    vec2 uv = 2.0 * (vec2(in_face % face_size, in_face / face_size) + x.yz) / float(face_size) - 1.0;
+    vec2 uv = 2.0 * (vec2(in_face % face_size, in_face / face_size) + place) / float(face_size) - 1.0;
     return normalize(cube_direction(texel / (face_size * face_size), uv.x, uv.y));
 }
 
@@ -91,7 +90,7 @@ vec3 progressive(LobeView v, MapRecord map, uint seed) {
         vec3 local_i = 2.0 * dot(v.local_o, h) * h - v.local_o;
         vec3 term = vec3(0.0);
         if (dot(v.local_o, h) > 0.0 && local_i.z > 0.0) term = weigh(v, v.frame * local_i, local_i, h, map);
-        vec3 direction = draw_texel(recurrence_3d(k, seed), map);
+        vec3 direction = draw_texel(k, seed, map);
         local_i = direction * v.frame;
         if (local_i.z > 0.0) term += weigh(v, direction, local_i, half_vector(local_i, v.local_o), map);
         sum += term;

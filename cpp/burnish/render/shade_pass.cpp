@@ -179,8 +179,7 @@ void ShadePass::record_tiles(vulkan::Commands& commands) const {
     commands.barrier();
     shared::ShadeRecord push{};
     push.tile_capacity = targets.tile_capacity;
-    commands.dispatch(*tile_stages_[0].pipeline, tile_stages_[0].set, vulkan::push_bytes(push),
-                      (targets.width + shared::TILE_SIZE - 1) / shared::TILE_SIZE, (targets.height + shared::TILE_SIZE - 1) / shared::TILE_SIZE);
+    commands.dispatch(*tile_stages_[0].pipeline, tile_stages_[0].set, vulkan::push_bytes(push), (targets.tile_capacity + 63) / 64);
     commands.barrier();
     commands.dispatch(*tile_stages_[1].pipeline, tile_stages_[1].set, {}, 1);
     commands.barrier();
