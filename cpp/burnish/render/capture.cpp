@@ -15,8 +15,10 @@ struct FaceAxes {
 };
 
 FaceAxes face_axes(uint32_t face) {
-    const glm::vec3 center = cube_direction(face, 0.0f, 0.0f);
-    return {center, cube_direction(face, 1.0f, 0.0f) - center, cube_direction(face, 0.0f, 1.0f) - center};
+    // Directions are unit: those through the ends of an axis lie 45 degrees off the centre, sqrt(2) apart.
+    const float scale = 1.0f / std::numbers::sqrt2_v<float>;
+    return {cube_direction(face, 0.0f, 0.0f), scale * (cube_direction(face, 1.0f, 0.0f) - cube_direction(face, -1.0f, 0.0f)),
+            scale * (cube_direction(face, 0.0f, 1.0f) - cube_direction(face, 0.0f, -1.0f))};
 }
 
 /// A camera sees a face mirrored: cubes are looked at from inside in a left-handed order. So it looks with -u to its right.
