@@ -99,8 +99,10 @@ def run_render(options: argparse.Namespace) -> int:
     if not options.quiet:
         print(frame.report)
     if options.compare:
-        error = frame.error(draw("reference", Reference()))
+        reference = draw("reference", Reference())
+        error = frame.error(reference)
         print(f"error against the reference: {error:.5f} relative RMSE, linear radiance, where objects are")
+        print(f"the reference's own standard error: {reference.report.standard_error:.5f}")
     if not options.quiet:
         for name in [*options.output, *([options.report] if options.report else [])]:
             print(f"wrote {name}")

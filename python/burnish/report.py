@@ -31,7 +31,7 @@ class Report:
     ----------
     data : mapping
         As the renderer fills it: version, device, size, spp, filter, sampler, passes, compile_ms, wall_ms,
-        effects, classes, non_finite, warnings, ignored_extensions.
+        effects, classes, non_finite, standard_error, warnings, ignored_extensions.
     """
 
     def __init__(self, data: Mapping[str, Any]) -> None:
@@ -87,6 +87,11 @@ class Report:
     def non_finite(self) -> int:
         """Values that were NaN or infinite on their way into the picture, and were stopped."""
         return int(self._data.get("non_finite", 0))
+
+    @property
+    def standard_error(self) -> float:
+        """Of a progressive reference: root mean square over the pixels, relative to their mean; else 0."""
+        return float(self._data.get("standard_error", 0.0))
 
     @property
     def warnings(self) -> list[str]:

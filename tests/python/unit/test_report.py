@@ -33,6 +33,7 @@ def test_report_gives_its_parts():
     assert report.size == (540, 960)
     assert (report.spp, report.filter, report.non_finite) == (4, "gauss6", 3)
     assert (report.wall_ms, report.compile_ms) == (132.4, 61.0)
+    assert report.standard_error == 0.0 and Report({"standard_error": 0.01}).standard_error == 0.01
     assert report.warnings == DATA["warnings"]
     assert report.ignored_extensions == ["KHR_materials_sheen"]
 
