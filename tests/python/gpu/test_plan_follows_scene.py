@@ -1,0 +1,155 @@
+"""Only what the scene calls for runs: each effect is off with a reason, or on because something asks for it."""
+
+import numpy as np
+import pytest
+
+import burnish
+from burnish.rendering import plan as plan_of
+
+LOBE = burnish.KurtLobe(roughness=0.2)
+
+
+def material(*lobes, **rest):
+    return burnish.Material(lobes=list(lobes), **rest)
+
+
+def scene_of(*materials, environment=None):
+    scene = burnish.Scene.spheres(list(materials), columns=max(1, len(materials)))
+    scene.environment = environment
+    return scene
+
+
+def effects(plan):
+    return {line["name"]: line for line in plan["effects"]}
+
+
+def is_on(plan, name):
+    line = effects(plan)[name]
+    assert line["reason"], f"{name} gives no reason"
+    return line["on"]
+
+
+ASKING = {
+    "lobe": (material(LOBE), material(diffuse=1.0)),
+    "lobe 2": (material(LOBE, LOBE), material(LOBE)),
+    "lobe 3": (material(LOBE, LOBE, LOBE), material(LOBE, LOBE)),
+    "lobe 4": (material(*[LOBE] * 4), material(LOBE, LOBE, LOBE)),
+    "fresnel": (material(burnish.KurtLobe(r0=(1, 1, 0.9))), material(LOBE)),
+    "alpha": (material(burnish.KurtLobe(alpha=0.3)), material(LOBE)),
+    "anisotropy": (material(burnish.KurtLobe(roughness=(0.2, 0.1))), material(LOBE)),
+    "diffuse": (material(LOBE, diffuse=(0, 0, 0.1)), material(LOBE)),
+    "emissive": (material(LOBE, emissive=(0, 1, 0)), material(LOBE)),
+}
+
+
+@pytest.mark.parametrize("name", ASKING)
+def test_effect_is_on_only_where_a_material_asks_for_it(name, spots64):
+    asking, silent = ASKING[name]
+    assert is_on(plan_of(scene_of(asking, environment=spots64)), name)
+    assert is_on(plan_of(scene_of(silent, asking, environment=spots64)), name)
+    assert not is_on(plan_of(scene_of(silent, environment=spots64)), name)
+
+
+def test_effect_of_a_material_that_no_object_shows_is_off(spots64):
+    scene = scene_of(material(LOBE), material(LOBE, emissive=1.0), environment=spots64)
+    assert is_on(plan_of(scene), "emissive")
+    scene.objects[1].material = 0
+    assert not is_on(plan_of(scene), "emissive")
+
+
+def test_every_effect_has_a_reason_and_one_line(spots64):
+    lines = plan_of(scene_of(material(LOBE), environment=spots64))["effects"]
+    names = [line["name"] for line in lines]
+    assert len(names) == len(set(names)) > 15
+    assert all(line["reason"] for line in lines)
+
+
+def passes(plan):
+    return [line["name"] for line in plan["passes"]]
+
+
+def test_accumulation_is_added_by_spp(spots64):
+    scene = scene_of(material(LOBE), environment=spots64)
+    assert not is_on(plan_of(scene), "accumulation")
+    assert "accumulate" not in passes(plan_of(scene))
+    assert is_on(plan_of(scene, spp=4), "accumulation")
+    assert "accumulate" in passes(plan_of(scene, spp=4))
+
+
+def test_pyramid_is_built_only_for_lookups_of_lobes(spots64):
+    assert "pyramid" in passes(plan_of(scene_of(material(LOBE), environment=spots64)))
+    assert "pyramid" not in passes(plan_of(scene_of(material(diffuse=1.0), environment=spots64)))
+    plan = plan_of(scene_of(material(LOBE), environment=spots64), burnish.Reference())
+    assert "pyramid" not in passes(plan)
+
+
+def test_background_is_off_without_environment_or_when_hidden(spots64):
+    scene = scene_of(material(LOBE), environment=spots64)
+    assert is_on(plan_of(scene), "background") and "background" in passes(plan_of(scene))
+    scene.show_background = False
+    assert not is_on(plan_of(scene), "background") and "background" not in passes(plan_of(scene))
+    dark = plan_of(scene_of(material(LOBE)))
+    assert not is_on(dark, "background")
+    assert any("no environment" in warning for warning in dark["warnings"])
+
+
+def test_turned_environment_is_an_effect():
+    plain = burnish.environments.uniform()
+    turned = burnish.Environment.from_faces(plain.faces, rotation=np.diag([-1.0, 1.0, -1.0]))
+    assert not is_on(plan_of(scene_of(material(LOBE), environment=plain)), "map rotation")
+    assert is_on(plan_of(scene_of(material(LOBE), environment=turned)), "map rotation")
+
+
+def test_materials_of_equal_needs_share_a_pipeline(spots64):
+    red, blue = burnish.KurtLobe(weight=(1, 0, 0)), burnish.KurtLobe(weight=(0, 0, 1))
+    assert len(plan_of(scene_of(material(red), material(blue), environment=spots64))["classes"]) == 1
+    other = material(blue, diffuse=0.5)
+    assert len(plan_of(scene_of(material(red), other, environment=spots64))["classes"]) == 2
+
+
+@pytest.fixture(scope="module")
+def many_materials():
+    """98 metals and lacquers, as the glTF scene of 98 spheres has them: every roughness its own."""
+    roughness = np.linspace(0.02, 1.0, 49)
+    metals = [material(burnish.KurtLobe(roughness=float(m), r0=0.9, alpha=0.5)) for m in roughness]
+    lacquers = [
+        material(burnish.KurtLobe(roughness=float(m), r0=0.04, alpha=0.5), diffuse=0.5) for m in roughness
+    ]
+    return burnish.Scene.spheres(metals + lacquers, 14)
+
+
+def test_many_materials_read_their_samples_from_a_buffer(device, many_materials, smooth64):
+    many_materials.environment = smooth64
+    plan = plan_of(many_materials)
+    assert {one["table"] for one in plan["classes"]} == {"buffer"} and len(plan["classes"]) <= 2
+    frame = burnish.render(many_materials, size=(64, 128), device=device)
+    assert {one["table"] for one in frame.report.classes} == {"buffer"}
+    assert frame.report.non_finite == 0
+    # One sphere alone has its samples as constants and looks the same.
+    alone = scene_of(many_materials.materials[20], environment=smooth64)
+    matrix = many_materials.objects[20].world_from_object
+    alone.objects[0].world_from_object = matrix
+    assert {one["table"] for one in plan_of(alone)["classes"]} == {"constant"}
+    single = burnish.render(alone, many_materials.default_camera(), (64, 128), device=device)
+    both = (single.alpha > 0) & np.isclose(single.depth, frame.depth)
+    assert both.sum() > 10
+    np.testing.assert_allclose(frame.color[both], single.color[both], rtol=1e-4)
+
+
+def test_frame_reports_what_the_plan_said(device, spots64):
+    scene = scene_of(material(LOBE, diffuse=0.2), material(LOBE, emissive=2.0), environment=spots64)
+    plan = plan_of(scene, spp=2)
+    report = burnish.render(scene, size=(24, 32), spp=2, device=device).report
+    assert report.effects == plan["effects"]
+    assert [one["effects"] for one in report.classes] == [one["effects"] for one in plan["classes"]]
+    ran = {entry["name"] for entry in report.passes}
+    assert set(passes(plan)) <= ran | {"pyramid"}, f"planned {passes(plan)}, ran {sorted(ran)}"
+    assert all(entry["milliseconds"] >= 0 for entry in report.passes)
+    assert report.size == (24, 32) and report.spp == 2
+
+
+def test_plan_renders_nothing(monkeypatch, spots64):
+    """Explaining needs no device: none is opened."""
+    monkeypatch.setattr(burnish._core, "render", None)
+    monkeypatch.setattr(burnish._core, "Device", None)
+    assert plan_of(scene_of(material(LOBE), environment=spots64))["passes"]
