@@ -17,7 +17,11 @@ using ProgressFunction = std::function<void(double, const std::string&)>;
 
 PlanSettings plan_settings(const Sampler& sampler, int64_t spp, const std::string& filter) {
     if (spp < 1 || spp > 65536) throw std::invalid_argument(message("spp: expected 1..65536, got ", spp));
-    return {sampler, uint32_t(spp), pyramid_filter(filter), true};
+    PlanSettings settings;
+    settings.sampler = sampler;
+    settings.spp = uint32_t(spp);
+    settings.filter = pyramid_filter(filter);
+    return settings;
 }
 
 py::list effects_list(const std::vector<EffectLine>& effects) {
@@ -188,6 +192,24 @@ void bind_render(py::module_& m) {
           "List of (6, n, n, 3) float32, finest first, as lookups see them: rounded to half.");
     m.def("pyramid_times", &pyramid_times, py::arg("device"), py::arg("environment"), py::arg("filter"),
           "List of (pass, milliseconds) of making one map's pyramid, for benchmarks.");
+    m.def(
+        "time_lookups",
+        [](render::Renderer& renderer, const std::shared_ptr<Environment>& environment, const Regular& sampler, float roughness,
+           uint32_t repeats) { return renderer.time_lookups(environment, sampler, roughness, repeats); },
+        py::arg("device"), py::arg("environment"), py::arg("sampler"), py::arg("roughness"), py::arg("repeats"),
+        "List of milliseconds: the lookups of a 1920x1080 picture and nothing else, for benchmarks.");
+    m.def(
+        "time_shading",
+        [](render::Renderer& renderer, const Scene& scene, const Camera& camera, const Sampler& sampler, bool has_lookups) {
+            render::RenderSettings settings;
+            settings.width = 1920;
+            settings.height = 1080;
+            settings.plan.sampler = sampler;
+            settings.plan.has_lookups = has_lookups;
+            return report_dict(renderer.render(scene, camera, settings).report);
+        },
+        py::arg("device"), py::arg("scene"), py::arg("camera"), py::arg("sampler"), py::arg("has_lookups"),
+        "dict: the report of a 1920x1080 frame, whose lookups may be left out, for benchmarks.");
     m.def("plan", &plan_dict, py::arg("scene"), py::arg("sampler"), py::arg("spp"), py::arg("filter"), py::arg("is_software"),
           "dict: passes, effects and shade classes with their reasons; nothing is rendered.");
     m.def(

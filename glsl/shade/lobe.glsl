@@ -13,6 +13,8 @@ layout(constant_id = SPEC_FOOTPRINT) const uint FOOTPRINT = FOOTPRINT_EXACT;
 layout(constant_id = SPEC_NORMALIZATION) const uint NORMALIZATION = NORMALIZATION_FURNACE;
 layout(constant_id = SPEC_SAMPLE_COUNT) const uint SAMPLE_COUNT = 1u;
 
+layout(constant_id = SPEC_WITHOUT_LOOKUPS) const bool IS_WITHOUT_LOOKUPS = false;
+
 #include "shade/sample_constants.glsl"
 
 layout(binding = BINDING_SAMPLE_TABLE, rgba32f) uniform readonly imageBuffer sample_table;
@@ -97,7 +99,7 @@ Lookup place_lookup(LobeView v, vec4 entry) {
 }
 
 void add_lookup(inout LobeSums sums, Lookup lookup, float layer) {
-    vec3 light = textureLod(maps, vec4(lookup.direction, layer), lookup.level).rgb;
+    vec3 light = IS_WITHOUT_LOOKUPS ? lookup.direction + lookup.level : textureLod(maps, vec4(lookup.direction, layer), lookup.level).rgb;
     sums.base += lookup.weight * light;
     sums.base_weight += lookup.weight;
     if (HAS_FRESNEL) {

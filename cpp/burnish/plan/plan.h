@@ -16,6 +16,7 @@ struct PlanSettings {
     Sampler sampler = Regular{};
     uint32_t spp = 1;
     PyramidFilter filter = PyramidFilter::gauss6;
+    bool has_lookups = true; ///< false for benchmarks: shading alone, the picture means nothing
     bool has_lobes = true; ///< false for captured maps: diffuse, emission and the far environment only
 };
 

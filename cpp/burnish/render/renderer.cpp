@@ -165,10 +165,8 @@ Frame Renderer::render(const Scene& scene, const Camera& camera, const RenderSet
         vulkan::Commands commands(device_);
         if (picture == 0) commands.fill_buffer(targets.counters, 0);
         if (!plan.has_background) commands.fill_buffer(targets.radiance, 0);
-        commands.barrier();
         commands.begin_pass("surface");
         surface.record(commands, targets);
-        commands.barrier();
         commands.end_pass();
         shade.record_tiles(commands);
         if (!is_reference) shade.record_shade(commands, {});
@@ -179,7 +177,6 @@ Frame Renderer::render(const Scene& scene, const Camera& camera, const RenderSet
             commands.begin_pass("accumulate");
             commands.dispatch(*accumulate, accumulate_set, vulkan::push_bytes(push), std::min(groups, shared::GROUPS_PER_ROW),
                               (groups + shared::GROUPS_PER_ROW - 1) / shared::GROUPS_PER_ROW);
-            commands.barrier();
             commands.end_pass();
         }
         commands.submit();

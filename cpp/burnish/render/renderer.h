@@ -53,6 +53,10 @@ public:
     std::vector<std::vector<float>> pyramid(const std::shared_ptr<const Environment>& environment, PyramidFilter filter,
                                             std::vector<vulkan::PassTime>* times = nullptr);
 
+    /// Milliseconds of a 1080p pass that makes the lookups of one lobe and nothing else, `repeats` times; for benchmarks.
+    std::vector<double> time_lookups(const std::shared_ptr<const Environment>& environment, const Regular& sampler, float roughness,
+                                     uint32_t repeats);
+
 private:
     struct CachedMaps {
         std::vector<std::weak_ptr<const Environment>> environments;

@@ -50,14 +50,16 @@ vulkan::SpecializationConstants common_constants(const ShadeTraits& traits, uint
     return constants;
 }
 
-void add_pattern_constants(vulkan::SpecializationConstants& constants, const ShadeTraits& traits, const Sampler& sampler,
+void add_pattern_constants(vulkan::SpecializationConstants& constants, const ShadeTraits& traits, const PlanSettings& settings,
                            const SampleTable& table) {
+    const Sampler& sampler = settings.sampler;
     const auto* regular = std::get_if<Regular>(&sampler);
     const bool is_published = regular && regular->footprint == Footprint::published;
     constants.set(shared::SPEC_HAS_FRESNEL, traits.has_fresnel)
         .set(shared::SPEC_ALPHA, form_of(traits.alpha))
         .set(shared::SPEC_TABLE, table_of(traits.table, sampler))
         .set(shared::SPEC_FOOTPRINT, is_published ? shared::FOOTPRINT_PUBLISHED : shared::FOOTPRINT_EXACT)
+        .set(shared::SPEC_WITHOUT_LOOKUPS, !settings.has_lookups)
         .set(shared::SPEC_NORMALIZATION, normalization_of(sampler, traits.table));
     if (traits.table != TableForm::constant) return;
     constants.set(shared::SPEC_SAMPLE_COUNT, uint32_t(table.entries.size()));
@@ -93,7 +95,7 @@ ShadePass::ShadePass(Pipelines& pipelines, const Plan& plan, const ShadeTables& 
         if (reference)
             constants.set(shared::SPEC_IS_QUADRATURE, reference->is_quadrature);
         else
-            add_pattern_constants(constants, traits, plan.settings.sampler, tables.class_tables[k]);
+            add_pattern_constants(constants, traits, plan.settings, tables.class_tables[k]);
         const std::string shader = reference ? "shade/reference.comp" : "shade/shade.comp";
         classes_.push_back(make_stage(pipelines, shader, constants, k, traits.map_set, reference));
         classes_.back().name = message(reference ? "reference " : "shade ", k);
@@ -182,7 +184,6 @@ void ShadePass::record_tiles(vulkan::Commands& commands) const {
     commands.dispatch(*tile_stages_[0].pipeline, tile_stages_[0].set, vulkan::push_bytes(push), (targets.tile_capacity + 63) / 64);
     commands.barrier();
     commands.dispatch(*tile_stages_[1].pipeline, tile_stages_[1].set, {}, 1);
-    commands.barrier();
     commands.end_pass();
 }
 
@@ -192,7 +193,6 @@ void ShadePass::record_shade(vulkan::Commands& commands, shared::ShadeRecord pus
         dispatch(commands, stage, push);
         commands.end_pass();
     }
-    commands.barrier();
 }
 
 void ShadePass::record_background(vulkan::Commands& commands) const {
@@ -201,7 +201,6 @@ void ShadePass::record_background(vulkan::Commands& commands) const {
         dispatch(commands, stage, {});
         commands.end_pass();
     }
-    commands.barrier();
 }
 
 } // namespace burnish::render

@@ -141,12 +141,16 @@ void Commands::begin_pass(std::string name) {
         device_->begin_label(frame_.commands, &label);
     }
     write_timestamp(2 * (passes_.size() - 1));
+    // lavapipe 22.3 puts the time down when it next flushes, which compute work alone does not make it do: without a
+    // barrier here a pass of dispatches starts when it ends.
+    barrier();
 }
 
 void Commands::end_pass() {
     require_outside_rendering("end_pass");
     require(is_in_pass_, "begin_pass before end_pass");
     is_in_pass_ = false;
+    barrier(); // the pass ends when its work does
     write_timestamp(2 * (passes_.size() - 1) + 1);
     if (device_->end_label) device_->end_label(frame_.commands);
 }

@@ -1,0 +1,40 @@
+// The part of Renderer that measures lookups apart from shading.
+#include <span>
+
+#include "burnish/render/renderer.h"
+#include "burnish/vulkan/device.h"
+#include "shared/constants.h"
+
+namespace burnish::render {
+
+std::vector<double> Renderer::time_lookups(const std::shared_ptr<const Environment>& environment, const Regular& sampler, float roughness,
+                                           uint32_t repeats) {
+    const std::lock_guard lock(mutex_);
+    constexpr uint32_t width = 1920, height = 1080;
+    const SampleTable table = build_sample_table(sampler, glm::vec2(roughness), environment->face_size());
+    EnvironmentMaps maps(device_, pyramid_, std::span(&environment, 1), PyramidFilter::gauss6);
+    const vulkan::Buffer radiance(device_, width * height * sizeof(glm::vec4), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
+    const vulkan::Sampler cube_sampler(device_, {});
+    vulkan::SpecializationConstants constants;
+    constants.set(shared::SPEC_SAMPLE_COUNT, uint32_t(table.entries.size()));
+    for (uint32_t k = 0; k < table.entries.size(); ++k)
+        for (uint32_t c = 0; c < 4; ++c) constants.set(shared::SPEC_SAMPLES + 4 * k + c, table.entries[k][int(c)]);
+    const vulkan::ComputePipeline& pipeline = pipelines_.compute("probe/lookups_alone.comp", constants);
+    vulkan::DescriptorSet set(pipeline);
+    set.bind(shared::BINDING_MAPS, maps.image().view_as(VK_IMAGE_VIEW_TYPE_CUBE_ARRAY), cube_sampler)
+        .bind(shared::BINDING_RADIANCE, radiance);
+    shared::ShadeRecord push{};
+    push.point_count = width;
+    std::vector<double> times;
+    for (uint32_t k = 0; k < repeats; ++k) {
+        vulkan::Commands commands(device_);
+        commands.begin_pass("lookups");
+        commands.dispatch(pipeline, set, vulkan::push_bytes(push), width / shared::TILE_SIZE, height / shared::TILE_SIZE);
+        commands.end_pass();
+        commands.submit();
+        times.push_back(commands.pass_times()[0].milliseconds);
+    }
+    return times;
+}
+
+} // namespace burnish::render
