@@ -6,6 +6,7 @@
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
+#include "shared/pyramid.h"
 #include "shared/records.h"
 
 namespace py = pybind11;
@@ -51,6 +52,10 @@ std::map<std::string, Layout> shared_layout() {
           FIELD(ShadeRecord, texel_begin), FIELD(ShadeRecord, texel_end), FIELD(ShadeRecord, pad0), FIELD(ShadeRecord, pad1)}},
         {"AccumulateRecord",
          {FIELD(AccumulateRecord, count), FIELD(AccumulateRecord, is_first), FIELD(AccumulateRecord, weight), FIELD(AccumulateRecord, pad0)}},
+        {"PyramidRecord",
+         {FIELD(PyramidRecord, source_begin), FIELD(PyramidRecord, source_pitch), FIELD(PyramidRecord, source_size),
+          FIELD(PyramidRecord, target_begin), FIELD(PyramidRecord, target_pitch), FIELD(PyramidRecord, pad0), FIELD(PyramidRecord, pad1),
+          FIELD(PyramidRecord, pad2)}},
         {"TexelAlias",
          {FIELD(TexelAlias, threshold), FIELD(TexelAlias, alias), FIELD(TexelAlias, probability), FIELD(TexelAlias, pad0)}},
         {"TextureRecord",

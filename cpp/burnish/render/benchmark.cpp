@@ -19,7 +19,7 @@ std::vector<double> Renderer::time_lookups(const std::shared_ptr<const Environme
     constants.set(shared::SPEC_SAMPLE_COUNT, uint32_t(table.entries.size()));
     for (uint32_t k = 0; k < table.entries.size(); ++k)
         for (uint32_t c = 0; c < 4; ++c) constants.set(shared::SPEC_SAMPLES + 4 * k + c, table.entries[k][int(c)]);
-    const vulkan::ComputePipeline& pipeline = pipelines_.compute("probe/lookups_alone.comp", constants);
+    const vulkan::ComputePipeline& pipeline = pipelines_.compute("shade/lookups_alone.comp", constants);
     vulkan::DescriptorSet set(pipeline);
     set.bind(shared::BINDING_MAPS, maps.image().view_as(VK_IMAGE_VIEW_TYPE_CUBE_ARRAY), cube_sampler)
         .bind(shared::BINDING_RADIANCE, radiance);

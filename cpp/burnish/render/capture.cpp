@@ -5,26 +5,16 @@
 #include <numbers>
 
 #include "burnish/error.h"
+#include "burnish/sampling/cube_texels.h"
 
 namespace burnish::render {
 namespace {
 
-/// Axes of a face: where its centre lies, and where u and v grow (see scene/environment.h).
-struct FaceAxes {
-    glm::vec3 center, u, v;
-};
-
-FaceAxes face_axes(uint32_t face) {
-    // Directions are unit: those through the ends of an axis lie 45 degrees off the centre, sqrt(2) apart.
-    const float scale = 1.0f / std::numbers::sqrt2_v<float>;
-    return {cube_direction(face, 0.0f, 0.0f), scale * (cube_direction(face, 1.0f, 0.0f) - cube_direction(face, -1.0f, 0.0f)),
-            scale * (cube_direction(face, 0.0f, 1.0f) - cube_direction(face, 0.0f, -1.0f))};
-}
-
-/// A camera sees a face mirrored: cubes are looked at from inside in a left-handed order. So it looks with -u to its right.
+/// A camera sees a face mirrored: cubes are looked at from inside in a left-handed order. So what lies to the right on a face lies to
+/// the left of its camera.
 Camera face_camera(const FaceAxes& axes, glm::vec3 point, float near_plane) {
     Camera camera;
-    camera.world_from_camera = glm::mat4(glm::vec4(-axes.u, 0.0f), glm::vec4(-axes.v, 0.0f), glm::vec4(-axes.center, 0.0f), glm::vec4(point, 1.0f));
+    camera.world_from_camera = glm::mat4(glm::vec4(-axes.right, 0.0), glm::vec4(-axes.down, 0.0), glm::vec4(-axes.axis, 0.0), glm::vec4(point, 1.0f));
     camera.vertical_fov = std::numbers::pi_v<float> / 2.0f;
     camera.near_plane = near_plane;
     return camera;

@@ -3,7 +3,7 @@
 #include <span>
 #include <stdexcept>
 
-#include "spirv/probe_lookups_alone_comp.h"
+#include "spirv/shade_lookups_alone_comp.h"
 #include "spirv/resolve_accumulate_comp.h"
 #include "spirv/shade_background_comp.h"
 #include "spirv/shade_classify_tiles_comp.h"
@@ -19,7 +19,7 @@ namespace {
 
 const std::map<std::string, std::span<const uint32_t>>& spirv() {
     static const std::map<std::string, std::span<const uint32_t>> words = {
-        {"probe/lookups_alone.comp", probe_lookups_alone_comp_spv},
+        {"shade/lookups_alone.comp", shade_lookups_alone_comp_spv},
         {"resolve/accumulate.comp", resolve_accumulate_comp_spv},
         {"shade/background.comp", shade_background_comp_spv},
         {"shade/classify_tiles.comp", shade_classify_tiles_comp_spv},

@@ -42,12 +42,15 @@ double relative_standard_error(const vulkan::Buffer& statistics, uint64_t points
     std::vector<glm::vec4> sums(points);
     vulkan::read_back(statistics, std::as_writable_bytes(std::span(sums)));
     double variance = 0.0, mean = 0.0;
+    uint64_t lit = 0; // pixels of the background stay at zero: they are not what is estimated
     for (const glm::vec4& sum : sums) {
+        if (sum.a == 0.0f) continue;
+        ++lit;
         const double point_mean = luminance(sum) / batches;
         mean += point_mean;
         variance += std::max(0.0, double(sum.a) / batches - point_mean * point_mean) / (batches - 1);
     }
-    return mean > 0.0 ? std::sqrt(variance * double(points)) / mean : 0.0;
+    return mean > 0.0 ? std::sqrt(variance * double(lit)) / mean : 0.0;
 }
 
 } // namespace
@@ -58,7 +61,7 @@ const vulkan::Buffer& Renderer::prepare_alias(const std::vector<std::shared_ptr<
     if (!is_same || alias_.size_bytes() == 0) {
         std::vector<shared::TexelAlias> tables;
         for (const auto& environment : environments) {
-            const std::vector<shared::TexelAlias> table = build_texel_alias(*environment);
+            const std::vector<shared::TexelAlias> table = build_texel_alias({environment->face_size(), environment->radiance()});
             tables.insert(tables.end(), table.begin(), table.end());
         }
         alias_ = vulkan::make_buffer(device_, std::as_bytes(std::span(tables)), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);

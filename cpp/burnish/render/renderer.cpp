@@ -155,6 +155,15 @@ Frame Renderer::render(const Scene& scene, const Camera& camera, const RenderSet
         accumulate_set = vulkan::DescriptorSet(*accumulate);
         accumulate_set.bind(shared::BINDING_ACCUMULATE_SAMPLE, targets.radiance).bind(shared::BINDING_ACCUMULATE_SUM, targets.sum);
     }
+    const auto record_accumulate = [&](vulkan::Commands& commands, uint32_t picture) {
+        const shared::AccumulateRecord push{uint32_t(pixels), picture == 0 ? 1u : 0u, 1.0f / float(spp), 0};
+        const uint32_t groups = uint32_t((pixels + 63) / 64);
+        commands.begin_pass("accumulate");
+        commands.dispatch(*accumulate, accumulate_set, vulkan::push_bytes(push), std::min(groups, shared::GROUPS_PER_ROW),
+                          (groups + shared::GROUPS_PER_ROW - 1) / shared::GROUPS_PER_ROW);
+        commands.barrier();
+        commands.end_pass();
+    };
     frame.report.compile_ms = pipelines_.take_compile_ms();
     frame.report.prepare_ms = wall.milliseconds() - frame.report.compile_ms;
 
@@ -171,22 +180,21 @@ Frame Renderer::render(const Scene& scene, const Camera& camera, const RenderSet
         shade.record_tiles(commands);
         if (!is_reference) shade.record_shade(commands, {});
         shade.record_background(commands);
-        if (accumulate && !is_reference) {
-            const shared::AccumulateRecord push{uint32_t(pixels), picture == 0 ? 1u : 0u, 1.0f / float(spp), 0};
-            const uint32_t groups = uint32_t((pixels + 63) / 64);
-            commands.begin_pass("accumulate");
-            commands.dispatch(*accumulate, accumulate_set, vulkan::push_bytes(push), std::min(groups, shared::GROUPS_PER_ROW),
-                              (groups + shared::GROUPS_PER_ROW - 1) / shared::GROUPS_PER_ROW);
-            commands.end_pass();
-        }
+        if (accumulate && !is_reference) record_accumulate(commands, picture);
         commands.submit();
         add_pass_times(times, commands.pass_times());
         if (is_reference) run_reference(plan, shade, *reference, pixels, settings.progress, frame.report);
+        if (accumulate && is_reference) {
+            vulkan::Commands after(device_);
+            record_accumulate(after, picture);
+            after.submit();
+            add_pass_times(times, after.pass_times());
+        }
         if (picture == 0) read_surface(targets, frame);
         if (settings.progress && !is_reference) settings.progress((picture + 1.0) / spp, "pictures");
     }
     const Stopwatch read_watch;
-    frame.radiance = read_buffer<glm::vec4>(spp > 1 && !is_reference ? targets.sum : targets.radiance, pixels);
+    frame.radiance = read_buffer<glm::vec4>(spp > 1 ? targets.sum : targets.radiance, pixels);
     frame.report.non_finite = read_non_finite(targets.counters);
     add_pass_times(times, {{"read back", read_watch.milliseconds()}});
     times.insert(times.end(), frame.report.passes.begin(), frame.report.passes.end());

@@ -133,7 +133,7 @@ const IrradianceCoefficients& TableCache::irradiance(const std::shared_ptr<const
     std::erase_if(irradiance_, [](const auto& entry) { return entry.second.environment.expired(); });
     auto found = irradiance_.find(environment.get());
     if (found == irradiance_.end())
-        found = irradiance_.emplace(environment.get(), Irradiance{environment, irradiance_over_pi_coefficients(*environment)}).first;
+        found = irradiance_.emplace(environment.get(), Irradiance{environment, irradiance_over_pi_coefficients({environment->face_size(), environment->radiance()})}).first;
     return found->second.coefficients;
 }
 

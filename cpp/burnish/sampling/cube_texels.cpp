@@ -33,19 +33,19 @@ std::vector<double> texel_solid_angles(uint32_t face_size) {
 }
 
 FaceAxes face_axes(uint32_t face) {
-    const glm::dvec3 axis = cube_direction(face, 0.0f, 0.0f);
-    // In the middle of an edge the direction is (axis + right)/sqrt(2) or (axis + down)/sqrt(2).
-    const auto to = [&](float u, float v) {
-        return glm::round(std::numbers::sqrt2 * glm::dvec3(cube_direction(face, u, v)) - axis);
+    // Vulkan's faces; scene/environment.h says the same, and a test compares the two.
+    static const FaceAxes axes[6] = {
+        {{1, 0, 0}, {0, 0, -1}, {0, -1, 0}}, {{-1, 0, 0}, {0, 0, 1}, {0, -1, 0}}, {{0, 1, 0}, {1, 0, 0}, {0, 0, 1}},
+        {{0, -1, 0}, {1, 0, 0}, {0, 0, -1}}, {{0, 0, 1}, {1, 0, 0}, {0, -1, 0}},  {{0, 0, -1}, {-1, 0, 0}, {0, -1, 0}},
     };
-    return {axis, to(1.0f, 0.0f), to(0.0f, 1.0f)};
+    return axes[face];
 }
 
-uint32_t require_texels(const Environment& environment) {
-    if (environment.face_size() == 0) {
+uint32_t require_texels(const CubeTexels& cube) {
+    if (cube.face_size == 0) {
         throw std::invalid_argument("environment: expected one with texels, got an empty one");
     }
-    return environment.face_size();
+    return cube.face_size;
 }
 
 } // namespace burnish

@@ -1,9 +1,8 @@
 // Geometry of the texels of a cube map, in double precision.
 #pragma once
 
-#include "burnish/scene/environment.h"
-
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include <glm/glm.hpp>
@@ -19,7 +18,13 @@ struct FaceAxes {
 };
 FaceAxes face_axes(uint32_t face);
 
-/// The face size. Throws std::invalid_argument if the environment has no texels (default constructed).
-uint32_t require_texels(const Environment& environment);
+/// The texels of a cube map as they lie in an Environment: 6 face_size^2 of three floats (face, row, column, channel).
+struct CubeTexels {
+    uint32_t face_size = 0;
+    std::span<const float> radiance;
+};
+
+/// The face size. Throws std::invalid_argument if there are no texels.
+uint32_t require_texels(const CubeTexels& cube);
 
 } // namespace burnish

@@ -36,15 +36,15 @@ Coefficients integrate_row(const float* radiance, const double* solid_angles, co
 
 } // namespace
 
-std::array<glm::dvec3, 9> irradiance_over_pi_coefficients(const Environment& environment) {
-    const uint32_t face_size = require_texels(environment);
+std::array<glm::dvec3, 9> irradiance_over_pi_coefficients(const CubeTexels& cube) {
+    const uint32_t face_size = require_texels(cube);
     const std::vector<double> solid_angles = texel_solid_angles(face_size);
     // One sum a row, added up in order: the result does not depend on the number of threads.
     std::vector<Coefficients> rows(size_t{6} * face_size);
     const auto integrate = [&](size_t first, size_t step) {
         for (size_t k = first; k < rows.size(); k += step) {
             const auto row = static_cast<uint32_t>(k % face_size);
-            rows[k] = integrate_row(environment.radiance().data() + 3 * k * face_size,
+            rows[k] = integrate_row(cube.radiance.data() + 3 * k * face_size,
                                     solid_angles.data() + size_t{row} * face_size,
                                     face_axes(static_cast<uint32_t>(k / face_size)), face_size, row);
         }

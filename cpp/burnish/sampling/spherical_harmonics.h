@@ -1,7 +1,7 @@
 // Diffuse light of an environment as nine spherical-harmonic coefficients (Ramamoorthi and Hanrahan 2001).
 #pragma once
 
-#include "burnish/scene/environment.h"
+#include "burnish/sampling/cube_texels.h"
 
 #include <array>
 
@@ -12,6 +12,6 @@ namespace burnish {
 /// RGB coefficients whose sum with the harmonics of glsl/lib/spherical_harmonics.glsl, in its order
 /// (00, 1-1 y, 10 z, 11 x, 2-2 xy, 2-1 yz, 20, 21 xz, 22), is irradiance / pi for a normal in the frame of
 /// the environment. Radiance as given: neither rotation nor exposure is applied.
-std::array<glm::dvec3, 9> irradiance_over_pi_coefficients(const Environment& environment);
+std::array<glm::dvec3, 9> irradiance_over_pi_coefficients(const CubeTexels& cube);
 
 } // namespace burnish

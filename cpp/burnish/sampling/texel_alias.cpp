@@ -40,13 +40,13 @@ void blur_face(const float* radiance, const std::vector<double>& solid_angles, u
 }
 
 /// Probabilities of all texels, times their number.
-std::vector<double> scaled_probabilities(const Environment& environment, uint32_t face_size) {
+std::vector<double> scaled_probabilities(const CubeTexels& cube, uint32_t face_size) {
     const std::vector<double> solid_angles = texel_solid_angles(face_size);
     const size_t face_texels = solid_angles.size();
     std::vector<double> scaled(6 * face_texels);
     double sum = 0.0;
     for (size_t face = 0; face < 6; ++face) {
-        blur_face(environment.radiance().data() + 3 * face * face_texels, solid_angles, face_size,
+        blur_face(cube.radiance.data() + 3 * face * face_texels, solid_angles, face_size,
                   scaled.data() + face * face_texels);
         for (size_t texel = 0; texel < face_texels; ++texel)
             sum += scaled[face * face_texels + texel];
@@ -62,8 +62,8 @@ std::vector<double> scaled_probabilities(const Environment& environment, uint32_
 
 } // namespace
 
-std::vector<shared::TexelAlias> build_texel_alias(const Environment& environment) {
-    std::vector<double> left = scaled_probabilities(environment, require_texels(environment));
+std::vector<shared::TexelAlias> build_texel_alias(const CubeTexels& cube) {
+    std::vector<double> left = scaled_probabilities(cube, require_texels(cube));
     const auto count = static_cast<uint32_t>(left.size());
     std::vector<shared::TexelAlias> table(count);
     // Texels with less than an even share from the front, those with more from the back.

@@ -2,7 +2,7 @@
 // Vose's set-up).
 #pragma once
 
-#include "burnish/scene/environment.h"
+#include "burnish/sampling/cube_texels.h"
 #include "shared/records.h"
 
 #include <vector>
@@ -16,6 +16,6 @@ namespace burnish {
 /// Probability aimed at: 95 % in proportion to solid angle times luminance (Rec. 709), the mean of the 3x3
 /// texels around, within the face and with its edges repeated; 5 % to solid angle alone, so that a texel that
 /// bilinear lookups or the lobe make brighter is never missed. A black environment has the second part only.
-std::vector<shared::TexelAlias> build_texel_alias(const Environment& environment);
+std::vector<shared::TexelAlias> build_texel_alias(const CubeTexels& cube);
 
 } // namespace burnish
