@@ -14,19 +14,19 @@ vec3 cube_direction(uint face, float u, float v) {
     }
 }
 
-// Face that a direction meets, and where. On an edge x comes before y before z.
+// Face that a direction meets, and where. Of equal components z wins, then y, as on most hardware.
 uint cube_face_uv(vec3 direction, out vec2 uv) {
     vec3 a = abs(direction);
-    if (a.x >= a.y && a.x >= a.z) {
-        uv = vec2(direction.x > 0.0 ? -direction.z : direction.z, -direction.y) / a.x;
-        return direction.x > 0.0 ? 0u : 1u;
+    if (a.z >= a.x && a.z >= a.y) {
+        uv = vec2(direction.z > 0.0 ? direction.x : -direction.x, -direction.y) / a.z;
+        return direction.z > 0.0 ? 4u : 5u;
     }
-    if (a.y >= a.z) {
+    if (a.y >= a.x) {
         uv = vec2(direction.x, direction.y > 0.0 ? direction.z : -direction.z) / a.y;
         return direction.y > 0.0 ? 2u : 3u;
     }
-    uv = vec2(direction.z > 0.0 ? direction.x : -direction.x, -direction.y) / a.z;
-    return direction.z > 0.0 ? 4u : 5u;
+    uv = vec2(direction.x > 0.0 ? -direction.z : direction.z, -direction.y) / a.x;
+    return direction.x > 0.0 ? 0u : 1u;
 }
 
 // r = |w| / |w|_inf: how far the cube lies out of the unit sphere in direction w. A texel of a face of `face_texels` covers
