@@ -43,8 +43,11 @@ vec2 octahedral_encode(vec3 n) {
     return n.z >= 0.0 ? p : (1.0 - abs(p.yx)) * sign_not_zero(p);
 }
 
+// The sign of z decides which basis a packed tangent refers to. On the equator z is rounding alone, so that the shader that
+// packs and the one that unpacks must round alike: `precise`.
 vec3 octahedral_decode(vec2 p) {
-    vec3 n = vec3(p, 1.0 - abs(p.x) - abs(p.y));
+    precise float z = 1.0 - abs(p.x) - abs(p.y);
+    vec3 n = vec3(p, z);
     if (n.z < 0.0) n.xy = (1.0 - abs(n.yx)) * sign_not_zero(n.xy);
     return normalize(n);
 }
