@@ -38,10 +38,12 @@ float grazing_term(float cos_i, float cos_o, float alpha) {
     return cos_i > 0.0 ? value : 0.0;
 }
 
-// Half-vector with density D cos_h, from x in the unit square. x.x >= 2^-24 keeps it above the horizon.
+// Half-vector with density D cos_h, from x in the unit square. x.x >= 2^-24 keeps it above the horizon; log, good to 2^-21
+// only beside 1, may come out positive there.
 vec3 sample_kurt(vec2 x, vec2 m) {
-    float radius = sqrt(-log(clamp(x.x, 5.9604645e-8, 1.0)));
-    vec2 slope = m * radius * vec2(cos(2.0 * PI * x.y), sin(2.0 * PI * x.y));
+    float radius = sqrt(max(-log(clamp(x.x, 5.9604645e-8, 1.0)), 0.0));
+    float azimuth = 2.0 * PI * (x.y - 0.5); // half a turn back: sin and cos are accurate in [-pi, pi]
+    vec2 slope = -m * radius * vec2(cos(azimuth), sin(azimuth));
     return vec3(slope, 1.0) * inversesqrt(1.0 + dot(slope, slope));
 }
 
