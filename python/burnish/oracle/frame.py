@@ -5,8 +5,14 @@ import numpy.typing as npt
 
 from .arrays import Array, as_array, dot, normalize
 
-#: A tangent whose part across the normal is shorter than this share of its length counts as parallel to it.
-PARALLEL_LIMIT = 1e-6
+#: A tangent whose part across the normal is shorter than this share of its length counts as parallel to it:
+#: in float32 most of what is left below is rounding.
+PARALLEL_LIMIT = 1e-5
+
+
+def sign_not_zero(v: npt.ArrayLike) -> Array:
+    """Return 1 for zero of either sign and above, -1 below."""
+    return np.where(as_array(v) >= 0, 1.0, -1.0)
 
 
 def orthonormal_basis(n: npt.ArrayLike) -> tuple[Array, Array]:
@@ -23,7 +29,7 @@ def orthonormal_basis(n: npt.ArrayLike) -> tuple[Array, Array]:
         Right-handed: cross(tangent, bitangent) = n.
     """
     x, y, z = np.moveaxis(as_array(n), -1, 0)
-    sign = np.copysign(1.0, z)
+    sign = sign_not_zero(z)
     a = -1.0 / (sign + z)
     b = x * y * a
     tangent = np.stack([1 + sign * x * x * a, sign * b, -sign * x], axis=-1)
@@ -48,6 +54,18 @@ def frame_from_tangent(n: npt.ArrayLike, t: npt.ArrayLike) -> tuple[Array, Array
     return tangent, np.cross(n, tangent)
 
 
+def longitude_frame(n: npt.ArrayLike) -> tuple[Array, Array]:
+    """Tangent along growing longitude about y, cross(y, n) over its length, and bitangent cross(n, t).
+
+    Within 1e-5 of a pole the tangent is that of `orthonormal_basis`.
+    """
+    n = as_array(n)
+    along = np.cross(np.array([0.0, 1.0, 0.0]), n)
+    usable = np.linalg.norm(along, axis=-1, keepdims=True) > PARALLEL_LIMIT
+    tangent = np.where(usable, normalize(along), orthonormal_basis(n)[0])
+    return tangent, np.cross(n, tangent)
+
+
 def rotate_frame(tangent: npt.ArrayLike, bitangent: npt.ArrayLike, angle: float) -> tuple[Array, Array]:
     """Turn a frame counter-clockwise about its normal by `angle` radians."""
     tangent, bitangent = as_array(tangent), as_array(bitangent)
@@ -59,7 +77,7 @@ def octahedral_encode(n: npt.ArrayLike) -> Array:
     """Unfold directions onto [-1, 1]^2: z >= 0 fills the inner diamond, z < 0 the corners around it."""
     n = as_array(n)
     p = n[..., :2] / np.sum(np.abs(n), axis=-1, keepdims=True)
-    folded = (1 - np.abs(p[..., ::-1])) * np.copysign(1.0, p)
+    folded = (1 - np.abs(p[..., ::-1])) * sign_not_zero(p)
     result: Array = np.where(n[..., 2:] < 0, folded, p)
     return result
 
@@ -68,5 +86,5 @@ def octahedral_decode(p: npt.ArrayLike) -> Array:
     """Unit directions of points made by `octahedral_encode`."""
     p = as_array(p)
     z = 1 - np.sum(np.abs(p), axis=-1, keepdims=True)
-    unfolded = (1 - np.abs(p[..., ::-1])) * np.copysign(1.0, p)
+    unfolded = (1 - np.abs(p[..., ::-1])) * sign_not_zero(p)
     return normalize(np.concatenate([np.where(z < 0, unfolded, p), z], axis=-1))

@@ -31,21 +31,7 @@ NAMED_OTHERWISE = {
 }
 
 # Functions without a twin: why none is needed.
-WITHOUT_TWIN = {
-    "sign_not_zero": "one comparison; covered by the octahedral pair that uses it",
-    "diamond_encode": "storage format; its test is the round trip through diamond_decode",
-    "diamond_decode": "storage format; its test is the round trip through diamond_encode",
-    "longitude_frame": "storage format; the frame that packed tangents are an angle in",
-    "pack_surface": "storage format; its test is the round trip through unpack_frame",
-    "has_surface": "storage format; one bit test",
-    "unpack_material": "storage format; the inverse of pack_surface",
-    "unpack_normal": "storage format; the inverse of pack_surface",
-    "unpack_frame": "storage format; the inverse of pack_surface",
-    "hash_uint": "random numbers of the progressive reference; its test is statistical",
-    "unit_from_uint": "random numbers of the progressive reference; its test is statistical",
-    "recurrence_2d": "random numbers of the progressive reference; its test is statistical",
-    "recurrence_3d": "random numbers of the progressive reference; its test is statistical",
-}
+WITHOUT_TWIN: dict[str, str] = {}
 
 
 def glsl_functions():
