@@ -161,7 +161,6 @@ Frame Renderer::render(const Scene& scene, const Camera& camera, const RenderSet
         commands.begin_pass("accumulate");
         commands.dispatch(*accumulate, accumulate_set, vulkan::push_bytes(push), std::min(groups, shared::GROUPS_PER_ROW),
                           (groups + shared::GROUPS_PER_ROW - 1) / shared::GROUPS_PER_ROW);
-        commands.barrier();
         commands.end_pass();
     };
     frame.report.compile_ms = pipelines_.take_compile_ms();
