@@ -18,7 +18,8 @@ py::array_t<float> probe(const render::Renderer& renderer, const std::string& li
     {
         const py::gil_scoped_release release;
         const std::span<const float> values(checked.data(), static_cast<size_t>(checked.size()));
-        results = render::run_probe(renderer.device(), library, function, values, static_cast<uint32_t>(checked.shape(1)));
+        results = render::run_probe(renderer.device(), library, function, values,
+                                    static_cast<uint32_t>(checked.shape(1)));
     }
     return make_array(std::move(results), {checked.shape(0), shared::PROBE_RESULTS, 4});
 }

@@ -65,7 +65,8 @@ std::vector<float> run_probe(const std::shared_ptr<vulkan::Device>& device, cons
     commands.fill_buffer(output, 0);
     commands.barrier();
     const uint64_t groups = (items + shared::PROBE_GROUP - 1) / shared::PROBE_GROUP;
-    commands.dispatch(pipeline, set, vulkan::push_bytes(Push{uint32_t(items), argument_count}), uint32_t(groups));
+    commands.dispatch(pipeline, set, vulkan::push_bytes(Push{uint32_t(items), argument_count}),
+                      uint32_t(groups));
     commands.submit();
     vulkan::read_back(output, std::as_writable_bytes(std::span(results)));
     return results;

@@ -25,8 +25,8 @@ def azimuth(turn, mx, my):
 def cell_edges(mx, my):
     """Edges of cells in 1 - cos theta, growing geometrically, and in the turn, evenly.
 
-    Float64 resolves 1 - cos theta also for lobes of a milliradian. Sectors of equal turn have equal shares: those
-    of a brushed lobe are narrow where it is long.
+    Float64 resolves 1 - cos theta also for lobes of a milliradian. Sectors of equal turn have equal shares:
+    those of a brushed lobe are narrow where it is long.
     """
     least, most = min(mx, my), max(mx, my)
     rings = np.geomspace(1e-3 * least**2, 1, int(3 * np.log2(most / least)) + 60)

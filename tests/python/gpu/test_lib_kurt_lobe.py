@@ -178,8 +178,8 @@ def test_kurt_value(device, rng):
         expected[k] = kurt_lobe.kurt_brdf(omega_i[k], omega_o[k], lobe)[0] * max(omega_i[k, 2], 0)
     assert np.all(np.isfinite(actual)) and np.all(actual >= 0)
     assert np.all(actual[omega_i[:, 2] <= 0] == 0)
-    # The sum's rounding turns h by `turn`; ln D changes with it by 2 sqrt(exponent)/(m cos_h^2) and 4/cos_h, the
-    # cosine below by 1/(o.h). Compared where that is small.
+    # The sum's rounding turns h by `turn`; ln D changes with it by 2 sqrt(exponent)/(m cos_h^2) and 4/cos_h,
+    # the cosine below by 1/(o.h). Compared where that is small.
     total = omega_i.astype(float) + omega_o
     length = np.linalg.norm(total, axis=-1)
     above = (omega_i[:, 2] > 0) & (length > 1e-5)
