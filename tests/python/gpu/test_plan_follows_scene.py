@@ -1,4 +1,4 @@
-"""Only what the scene calls for runs: each effect is off with a reason, or on because something asks for it."""
+"""Only what the scene calls for runs: each effect is off with a reason, or on where something asks."""
 
 import numpy as np
 import pytest

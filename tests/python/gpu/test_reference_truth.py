@@ -1,4 +1,4 @@
-"""`Reference`: by every texel against the oracle's sum, by chance against both, and honest about its error."""
+"""`Reference`: by every texel against the oracle's sum, by chance against both, and honest."""
 
 import numpy as np
 import pytest
@@ -29,7 +29,7 @@ def stored(environment):
 
 @pytest.mark.parametrize("lobe", [ROUND, BRUSHED], ids=["round", "brushed"])
 def test_quadrature_equals_the_oracle_s_sum(device, spots64, points, lobe):
-    """Equal sums but for the texels' solid angles: 4/(face_texels r^3) at the centre against the exact one."""
+    """The texels' solid angles differ: 4/(face_texels r^3) at the centre against the exact one."""
     got = burnish.shade(spots64, burnish.Material(lobes=[lobe]), QUADRATURE, *points, device=device)
     expected = shade_reference(stored(spots64), *points, lobe)
     assert np.sqrt(np.mean((got - expected) ** 2) / np.mean(expected**2)) <= 1e-3
@@ -67,8 +67,8 @@ def bilinear_truth(environment, points, lobe, parts=4):
 def test_progressive_reference_is_honest(device, roughness, standard_error, rng):
     """Its error, over points that were each sampled by other numbers, is what it says it is.
 
-    The standard error is that of luminance, root mean square over the points, relative to their mean. With 256
-    points the estimate of the error itself is good to some 20 %.
+    The standard error is that of luminance, root mean square over the points, relative to their mean.
+    With 256 points the estimate of the error itself is good to some 20 %.
     """
     from burnish.environments import spots
 
@@ -82,7 +82,7 @@ def test_progressive_reference_is_honest(device, roughness, standard_error, rng)
     assert np.sqrt(np.mean(error**2)) <= 1.3 * standard_error
     # No bias hides in the noise: the mean of the errors is within three of its own standard errors.
     assert abs(error.mean()) <= 3 * error.std() / np.sqrt(len(error)) + 2e-4
-    # A normal distribution keeps 95 % within two standard deviations; the points' own differ, so fewer may do.
+    # A normal distribution keeps 95 % within two standard deviations; points differ, so fewer may do.
     assert np.mean(np.abs(error) <= 2 * standard_error) >= 0.9
 
 
@@ -107,7 +107,7 @@ def test_progressive_reference_says_when_it_stopped_short(device, spots64):
 
 @pytest.mark.parametrize(("sampler", "limit"), [(burnish.Regular(50), 0.04), (burnish.Importance(256), 0.02)])
 def test_samplers_come_close_to_the_reference(device, smooth64, points, sampler, limit):
-    """Under smooth light: the regular pattern ends at q = 0.2 and so sees a lobe narrower than the true one."""
+    """Under smooth light: the regular pattern ends at q = 0.2, so its lobe is narrower than the true one."""
     material = burnish.Material(lobes=[ROUND])
     truth = burnish.shade(smooth64, material, QUADRATURE, *points, device=device)
     got = burnish.shade(smooth64, material, sampler, *points, device=device)

@@ -116,8 +116,8 @@ def placed(scale, translation):
 def still_life(environment, double_sided=False):
     """Objects that overlap, one of them mirrored and stretched.
 
-    The oracle's frames are right-handed everywhere, the engine's are mirrored with the object: symmetric patterns
-    cannot tell, that of `Importance` can (test_render_mirror judges it).
+    The oracle's frames are right-handed everywhere, the engine's are mirrored with the object: symmetric
+    patterns cannot tell, that of `Importance` can (test_render_mirror judges it).
     """
     scene = burnish.Scene()
     satin = burnish.KurtLobe(roughness=0.3, r0=(0.9, 0.6, 0.3), alpha=0.5)

@@ -14,8 +14,8 @@ from burnish.oracle.shading import shade as oracle_shade
 from engine_support import random_points
 
 # Errors are relative to the mean radiance over the points. Float32 places a lookup within 1e-5 of a texel,
-# and where a narrow lobe reads level 0 at the edge of a disc, radiance changes by 1000 means within a texel: few
-# points may differ by more than the limit, none by ten times as much.
+# and where a narrow lobe reads level 0 at the edge of a disc, radiance changes by 1000 means within a texel:
+# few points may differ by more than the limit, none by ten times as much.
 LIMIT_SOFTWARE, LIMIT_GPU = 1e-4, 2e-2
 SHARE_BEYOND = 0.005
 
