@@ -1,0 +1,133 @@
+"""Scenes of the benchmark: each effect absent, present but zero, and present."""
+
+import base64
+import io
+import json
+from collections.abc import Iterator
+from pathlib import Path
+
+import numpy as np
+from PIL import Image
+
+from burnish import Environment, KurtLobe, Material, Mesh, Scene
+
+Row = tuple[str, tuple[str, ...], tuple[Scene, Scene, Scene], tuple[int, int, int]]
+# As good as nothing in any pixel, yet not nothing to the plan.
+TRACE = 1e-6
+
+
+def _sphere(environment: Environment, material: Material) -> Scene:
+    scene = Scene.sphere(material)
+    scene.environment = environment
+    return scene
+
+
+def _lobes(environment: Environment, *lobes: KurtLobe, **fields: object) -> Scene:
+    return _sphere(environment, Material(lobes=list(lobes), **fields))
+
+
+def _data_uri(mime: str, data: bytes) -> str:
+    return f"data:{mime};base64,{base64.b64encode(data).decode()}"
+
+
+def _png(pixels: np.ndarray) -> str:
+    buffer = io.BytesIO()
+    Image.fromarray(pixels.astype(np.uint8)).save(buffer, "PNG")
+    return _data_uri("image/png", buffer.getvalue())
+
+
+def textured_sphere(path: Path, textures: dict[str, np.ndarray], has_colors: bool = False) -> Path:
+    """Write the unit sphere as glTF with 8-bit textures by the name of their slot."""
+    mesh = Mesh.sphere()
+    arrays = {
+        "POSITION": (mesh.positions, "VEC3"),
+        "NORMAL": (mesh.normals, "VEC3"),
+        "TANGENT": (mesh.tangents, "VEC4"),
+        "TEXCOORD_0": (mesh.uv0, "VEC2"),
+    }
+    if has_colors:
+        arrays["COLOR_0"] = (np.ones((len(mesh.positions), 3), np.float32), "VEC3")
+    blobs, views, accessors, attributes = b"", [], [], {}
+    for name, (array, kind) in [*arrays.items(), ("", (mesh.indices.reshape(-1), "SCALAR"))]:
+        data = np.ascontiguousarray(array).tobytes()
+        views.append({"buffer": 0, "byteOffset": len(blobs), "byteLength": len(data)})
+        accessor = {"bufferView": len(views) - 1, "componentType": 5126 if name else 5125, "type": kind}
+        accessor["count"] = len(array) if name else array.size
+        if name == "POSITION":
+            accessor |= {"min": array.min(0).tolist(), "max": array.max(0).tolist()}
+        accessors.append(accessor)
+        blobs += data
+        if name:
+            attributes[name] = len(accessors) - 1
+    slots = {name: {"index": k} for k, name in enumerate(textures)}
+    material: dict = {"pbrMetallicRoughness": {"roughnessFactor": 0.45, "metallicFactor": 1.0}}
+    for name, slot in slots.items():
+        (material["pbrMetallicRoughness"] if "Color" in name or "metallic" in name else material)[name] = slot
+    if "emissiveTexture" in slots:
+        material["emissiveFactor"] = [1, 1, 1]
+    document = {
+        "asset": {"version": "2.0"},
+        "scenes": [{"nodes": [0]}],
+        "nodes": [{"mesh": 0}],
+        "meshes": [{"primitives": [{"attributes": attributes, "indices": len(accessors) - 1, "material": 0}]}],
+        "materials": [material],
+        "images": [{"uri": _png(pixels)} for pixels in textures.values()],
+        "textures": [{"source": k} for k in range(len(textures))],
+        "buffers": [{"uri": _data_uri("application/octet-stream", blobs), "byteLength": len(blobs)}],
+        "bufferViews": views,
+        "accessors": accessors,
+    }
+    if not textures:
+        for key in ("images", "textures"):
+            del document[key]
+    path.write_text(json.dumps(document))
+    return path
+
+
+def _texture_rows(folder: Path, environment: Environment) -> Iterator[Row]:
+    noise = np.random.default_rng(1).integers(100, 255, (256, 256, 3))
+    flat = np.full((256, 256, 3), (128, 128, 255))
+    bumps = np.clip(flat + np.random.default_rng(2).integers(-20, 20, flat.shape), 0, 255)
+    kinds = {
+        "baseColorTexture": (np.full((256, 256, 3), 255), noise),
+        "metallicRoughnessTexture": (np.full((256, 256, 3), 255), noise),
+        "normalTexture": (flat, bumps),
+        "occlusionTexture": (np.full((256, 256, 3), 255), noise),
+        "emissiveTexture": (np.zeros((256, 256, 3)), noise),
+    }
+
+    def load(name: str, textures: dict[str, np.ndarray]) -> Scene:
+        scene = Scene.from_file(textured_sphere(folder / f"{name}.gltf", textures))
+        scene.environment = environment
+        return scene
+
+    absent = load("plain", {})
+    for kind, (zero, present) in kinds.items():
+        scenes = (absent, load("zero", {kind: zero}), load("present", {kind: present}))
+        yield kind.removesuffix("Texture") + " texture", ("surface", "shade"), scenes, (1, 1, 1)
+
+
+def effect_scenes(folder: Path, environment: Environment) -> Iterator[Row]:
+    """Name, the numbers to show, the three scenes and their spp."""
+    plain = _lobes(environment, KurtLobe(0.1))
+    lobe = KurtLobe(0.1)
+    once = (1, 1, 1)
+    rows: dict[str, tuple[Scene, Scene]] = {
+        "fresnel": (_lobes(environment, KurtLobe(0.1, r0=1 - TRACE)), _lobes(environment, KurtLobe(0.1, r0=0.04))),
+        "alpha .5": (_lobes(environment, KurtLobe(0.1, alpha=TRACE)), _lobes(environment, KurtLobe(0.1, alpha=0.5))),
+        "alpha .3": (_lobes(environment, KurtLobe(0.1, alpha=TRACE)), _lobes(environment, KurtLobe(0.1, alpha=0.3))),
+        "anisotropy": (
+            _lobes(environment, KurtLobe((0.1, 0.1 + TRACE))),
+            _lobes(environment, KurtLobe((0.1, 0.05))),
+        ),
+        "lobe 2": (
+            _lobes(environment, lobe, KurtLobe(0.1, weight=0.0)),
+            _lobes(environment, lobe, KurtLobe(0.3, weight=0.2)),
+        ),
+        "diffuse": (_lobes(environment, lobe, diffuse=TRACE), _lobes(environment, lobe, diffuse=0.5)),
+        "emissive": (_lobes(environment, lobe, emissive=TRACE), _lobes(environment, lobe, emissive=0.5)),
+    }
+    for name, (zero, present) in rows.items():
+        yield name, ("shade",), (plain, zero, present), once
+    yield "accumulation", ("wall",), (plain, plain, plain), (1, 2, 4)
+    yield from _texture_rows(folder, environment)
