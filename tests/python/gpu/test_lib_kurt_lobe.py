@@ -12,8 +12,8 @@ EDGES = [(1, 1), (1e-3, 1e-3), (1, 1e-3), (1e-3, 1), (0.2, 0.075), (10, 10)]
 
 
 def roughnesses(rng, count=COUNT):
-    """Slopes along both axes, the corners of their range first."""
-    m = 10.0 ** rng.uniform(-3, 0, (count, 2))
+    """Slopes along both axes up to the 10 a material may have, the corners of their range first."""
+    m = 10.0 ** rng.uniform(-3, 1, (count, 2))
     m[::2, 1] = m[::2, 0]
     m[: len(EDGES)] = EDGES
     return m.astype(np.float32)
@@ -199,8 +199,8 @@ def test_kurt_value(device, rng):
 
 
 def test_kurt_value_of_directions_that_cancel_is_zero(device):
-    omega_o = units([[1, 0, 0], [0.6, 0, 0.8], [1, 0, 1e-8]])
-    actual = probe(
-        device, "kurt_value", -omega_o, omega_o, np.tile(np.array([0.1, 0.1, 1], np.float32), (3, 1))
-    )
+    """Along the surface, and with the eye behind it, where the light's side alone would let a 0/0 pass."""
+    omega_o = units([[1, 0, 0], [0.6, 0, 0.8], [0.6, 0, -0.8], [0, 0, -1], [1, 0, -1e-8]])
+    lobe = np.tile(np.float32([0.1, 0.1, 1]), (len(omega_o), 1))
+    actual = probe(device, "kurt_value", -omega_o, omega_o, lobe)
     np.testing.assert_array_equal(actual[:, 0, 0], 0)
