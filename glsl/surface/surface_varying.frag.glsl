@@ -29,6 +29,7 @@ layout(location = 3) out vec4 emissive_out; // rgb: radiance; a: weight at grazi
 layout(location = 4) out vec4 coat_out;     // x: weight, y: roughness
 
 SurfaceRecord material;
+vec4 uv_dx, uv_dy;
 
 bool has_texture(uint kind) { return (TEXTURES & (1u << kind)) != 0u; }
 
@@ -36,9 +37,14 @@ bool has_texture(uint kind) { return (TEXTURES & (1u << kind)) != 0u; }
 vec4 read_texture(uint kind, vec4 absent) {
     if (!has_texture(kind)) return absent;
     TextureRecord record = texture_records[material.texture_begin + kind];
-    vec2 set = record.uv_set == 0u ? uv.xy : uv.zw;
+    bool is_first = record.uv_set == 0u;
+    vec2 set = is_first ? uv.xy : uv.zw;
     mat2 scale_rotation = mat2(record.scale_rotation.xy, record.scale_rotation.zw);
-    return texture(textures[kind], scale_rotation * set + record.offset);
+    // Gradients of the inputs, not of what was computed with the record: lavapipe loads zeros for the invocations beside a
+    // triangle that exist for gradients only, and every edge would be sampled at a wrong level.
+    vec2 dx = scale_rotation * (is_first ? uv_dx.xy : uv_dx.zw);
+    vec2 dy = scale_rotation * (is_first ? uv_dy.xy : uv_dy.zw);
+    return textureGrad(textures[kind], scale_rotation * set + record.offset, dx, dy);
 }
 
 // Half-precision targets truncate on some drivers: round to nearest first.
@@ -48,6 +54,8 @@ vec4 round_to_half(vec4 v) {
 }
 
 void main() {
+    uv_dx = dFdx(uv);
+    uv_dy = dFdy(uv);
     material = materials[draw.material];
     vec4 base = material.base_color * read_texture(TEXTURE_BASE_COLOR, vec4(1.0));
     if (HAS_VERTEX_COLOR) base *= color;
