@@ -199,8 +199,10 @@ def test_kurt_value(device, rng):
 
 
 def test_kurt_value_of_directions_that_cancel_is_zero(device):
-    """Along the surface, and with the eye behind it, where the light's side alone would let a 0/0 pass."""
-    omega_o = units([[1, 0, 0], [0.6, 0, 0.8], [0.6, 0, -0.8], [0, 0, -1], [1, 0, -1e-8]])
+    """Along the surface, with the eye behind it, and where the sum is too short to have a direction."""
+    omega_o = units([[1, 0, 0], [0.6, 0, 0.8], [0.6, 0, -0.8], [0, 0, -1], [1, 0, -1e-8], [1, 0, 1e-8]])
+    omega_i = -omega_o
+    omega_i[-1, 2] = 1e-8
     lobe = np.tile(np.float32([0.1, 0.1, 1]), (len(omega_o), 1))
-    actual = probe(device, "kurt_value", -omega_o, omega_o, lobe)
+    actual = probe(device, "kurt_value", omega_i, omega_o, lobe)
     np.testing.assert_array_equal(actual[:, 0, 0], 0)
