@@ -142,7 +142,7 @@ LobeSums gather_buffer(LobeView v, uint table_begin, uint table_count) {
     return sums;
 }
 
-// (E1, Es) at the lobe's view: cosine nodes at (i/63)^2, azimuth nodes over a quarter; see AlbedoTable.
+// (E1, Es) at the lobe's view: see AlbedoTable.
 vec2 albedo_row(uint begin, float cos_o) {
     float x = sqrt(clamp(cos_o, 0.0, 1.0)) * float(ALBEDO_COS_NODES - 1u);
     float i = min(floor(x), float(ALBEDO_COS_NODES - 2u));
@@ -150,10 +150,14 @@ vec2 albedo_row(uint begin, float cos_o) {
     return mix(albedo_table[entry], albedo_table[entry + 1u], x - i);
 }
 
-vec2 lobe_albedo(uint begin, uint phi_nodes, vec3 local_o) {
-    if (phi_nodes == 1u) return albedo_row(begin, local_o.z);
-    float x = atan(abs(local_o.y), max(abs(local_o.x), 1e-20)) * (2.0 / PI) * float(phi_nodes - 1u);
-    float j = min(floor(x), float(phi_nodes - 2u));
+vec2 lobe_albedo(uint begin, uint width_nodes, vec3 local_o, vec2 roughness) {
+    if (width_nodes == 1u) return albedo_row(begin, local_o.z);
+    vec2 along = local_o.xy * roughness;
+    float width = sqrt(dot(along, along) / max(dot(local_o.xy, local_o.xy), 1e-30));
+    float least = min(roughness.x, roughness.y);
+    float share = (width - least) / max(max(roughness.x, roughness.y) - least, 1e-20);
+    float x = sqrt(clamp(share, 0.0, 1.0)) * float(width_nodes - 1u);
+    float j = min(floor(x), float(width_nodes - 2u));
     uint row = begin + uint(j) * ALBEDO_COS_NODES;
     return mix(albedo_row(row, local_o.z), albedo_row(row + ALBEDO_COS_NODES, local_o.z), x - j);
 }

@@ -36,7 +36,7 @@ vec3 shade_lobe(PointToShade point, MapRecord map, uint lobe_index, uint which) 
         if (TABLE == TABLE_SCALED_REGULAR)
             albedo = varying_albedo(record.albedo_begin, v.roughness, v.local_o.z);
         else
-            albedo = lobe_albedo(record.albedo_begin, record.albedo_phi_nodes, v.local_o);
+            albedo = lobe_albedo(record.albedo_begin, record.albedo_width_nodes, v.local_o, v.roughness);
     }
     return finish_lobe(v, sums, lobe.specular, lobe.grazing, albedo);
 }

@@ -16,10 +16,14 @@ struct LobeRecord {
     uint table_begin;      // first entry of its sample table
     uint table_count;      // samples
     uint albedo_begin;     // first entry of its albedo table
-    uint albedo_phi_nodes; // 1 = isotropic
+    uint albedo_width_nodes; // 1 = isotropic
     float threshold_log;   // -ln xi0, for scaled tables of the regular pattern
+    uint conserves_energy; // 1: divided by its albedo where that exceeds 1
+    uint pad0;
+    uint pad1;
+    uint pad2;
 };
-SHARED_SIZE(LobeRecord, 64)
+SHARED_SIZE(LobeRecord, 80)
 
 // One material seen with one map.
 struct MaterialRecord {

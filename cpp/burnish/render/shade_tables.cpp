@@ -55,7 +55,7 @@ public:
         auto found = albedo_ranges_.find(key);
         if (found == albedo_ranges_.end()) {
             const std::vector<glm::vec2>& table = is_varying ? cache_.varying_albedo(alpha) : cache_.albedo(roughness, alpha).entries;
-            const uint32_t nodes = is_varying ? 1 : cache_.albedo(roughness, alpha).phi_nodes;
+            const uint32_t nodes = is_varying ? 1 : cache_.albedo(roughness, alpha).width_nodes;
             found = albedo_ranges_.emplace(key, Range{uint32_t(albedo_entries.size()), nodes}).first;
             albedo_entries.insert(albedo_entries.end(), table.begin(), table.end());
         }
@@ -79,7 +79,7 @@ shared::LobeRecord lobe_record(const KurtLobe& lobe) {
     record.alpha = lobe.alpha;
     record.rotation_cos = std::cos(lobe.rotation);
     record.rotation_sin = std::sin(lobe.rotation);
-    record.albedo_phi_nodes = 1;
+    record.albedo_width_nodes = 1;
     return record;
 }
 
@@ -158,7 +158,7 @@ ShadeTables make_shade_tables(const vulkan::DevicePointer& device, const Scene& 
                 counts[instance.shade_class].insert(samples.count);
                 const auto albedo = writer.albedo(traits.table, lobe.roughness, lobe.alpha);
                 record.albedo_begin = albedo.begin;
-                record.albedo_phi_nodes = albedo.count;
+                record.albedo_width_nodes = albedo.count;
             }
             if (const auto* regular = std::get_if<Regular>(&plan.settings.sampler)) record.threshold_log = -std::log(regular->threshold);
             lobes.push_back(record);
