@@ -6,8 +6,9 @@
 namespace burnish {
 namespace {
 
-KurtLobe make_lobe(const Pair& roughness, const Color& r0, float alpha, const Color& weight, float rotation) {
-    KurtLobe lobe{vec2_of(roughness), vec3_of(r0), alpha, vec3_of(weight), rotation};
+KurtLobe make_lobe(const Pair& roughness, const Color& r0, float alpha, const Color& weight, float rotation,
+                   bool conserve_energy) {
+    KurtLobe lobe{vec2_of(roughness), vec3_of(r0), alpha, vec3_of(weight), rotation, conserve_energy};
     validate(lobe);
     return lobe;
 }
@@ -15,7 +16,8 @@ KurtLobe make_lobe(const Pair& roughness, const Color& r0, float alpha, const Co
 std::string repr(const KurtLobe& lobe) {
     return message("KurtLobe(roughness=(", lobe.roughness.x, ", ", lobe.roughness.y, "), r0=(", lobe.r0.x,
                    ", ", lobe.r0.y, ", ", lobe.r0.z, "), alpha=", lobe.alpha, ", weight=(", lobe.weight.x,
-                   ", ", lobe.weight.y, ", ", lobe.weight.z, "), rotation=", lobe.rotation, ")");
+                   ", ", lobe.weight.y, ", ", lobe.weight.z, "), rotation=", lobe.rotation,
+                   ", conserve_energy=", lobe.conserve_energy ? "True" : "False", ")");
 }
 
 Material make_material(const Color& diffuse, std::vector<KurtLobe> lobes, const Color& emissive,
@@ -124,13 +126,16 @@ weight : float or (float, float, float)
     Colour, >= 0.
 rotation : float
     Radians; turns the tangent counter-clockwise about the normal.
+conserve_energy : bool
+    Divide by the albedo for r0 = 1 where that exceeds 1. glTF's materials do; the published model does not.
 
 Raises
 ------
 ValueError
     If a number is out of its range.)")
         .def(py::init(&make_lobe), py::arg("roughness") = Pair(0.2f), py::arg("r0") = Color(1.0f),
-             py::arg("alpha") = 0.0f, py::arg("weight") = Color(1.0f), py::arg("rotation") = 0.0f)
+             py::arg("alpha") = 0.0f, py::arg("weight") = Color(1.0f), py::arg("rotation") = 0.0f,
+             py::arg("conserve_energy") = false)
         .def_property_readonly(
             "roughness", [](const KurtLobe& l) { return tuple_of(l.roughness); },
             "(float, float): Beckmann slopes along tangent and bitangent.")
@@ -141,6 +146,7 @@ ValueError
         .def_property_readonly(
             "weight", [](const KurtLobe& l) { return tuple_of(l.weight); }, "(float, float, float): colour.")
         .def_readonly("rotation", &KurtLobe::rotation, "Radians about the normal.")
+        .def_readonly("conserve_energy", &KurtLobe::conserve_energy, "Whether albedos above 1 are divided out.")
         .def_property_readonly("is_anisotropic", &KurtLobe::is_anisotropic, "Whether the two slopes differ.")
         .def_property_readonly("has_fresnel", &KurtLobe::has_fresnel, "Whether r0 is below 1 anywhere.")
         .def("__repr__", &repr);

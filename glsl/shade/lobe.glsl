@@ -6,6 +6,7 @@
 
 #include "lib/footprint.glsl"
 #include "lib/kurt_lobe.glsl"
+#include "shade/albedo.glsl"
 #include "shade/bindings.glsl"
 
 layout(constant_id = SPEC_TABLE) const uint TABLE = TABLE_BUFFER;
@@ -18,7 +19,6 @@ layout(constant_id = SPEC_WITHOUT_LOOKUPS) const bool IS_WITHOUT_LOOKUPS = false
 #include "shade/sample_constants.glsl"
 
 layout(binding = BINDING_SAMPLE_TABLE, rgba32f) uniform readonly imageBuffer sample_table;
-layout(std430, binding = BINDING_ALBEDO_TABLE) readonly buffer AlbedoTable { vec2 albedo_table[]; };
 
 // What all samples of one lobe at one point share.
 struct LobeView {
@@ -140,35 +140,6 @@ LobeSums gather_buffer(LobeView v, uint table_begin, uint table_count) {
         [[unroll]] for (uint j = 0u; j < PHASE; ++j) add_lookup(sums, lookups[j], v.layer);
     }
     return sums;
-}
-
-// (E1, Es) at the lobe's view: see AlbedoTable.
-vec2 albedo_row(uint begin, float cos_o) {
-    float x = sqrt(clamp(cos_o, 0.0, 1.0)) * float(ALBEDO_COS_NODES - 1u);
-    float i = min(floor(x), float(ALBEDO_COS_NODES - 2u));
-    uint entry = begin + uint(i);
-    return mix(albedo_table[entry], albedo_table[entry + 1u], x - i);
-}
-
-vec2 lobe_albedo(uint begin, uint width_nodes, vec3 local_o, vec2 roughness) {
-    if (width_nodes == 1u) return albedo_row(begin, local_o.z);
-    vec2 along = local_o.xy * roughness;
-    float width = sqrt(dot(along, along) / max(dot(local_o.xy, local_o.xy), 1e-30));
-    float least = min(roughness.x, roughness.y);
-    float share = (width - least) / max(max(roughness.x, roughness.y) - least, 1e-20);
-    float x = sqrt(clamp(share, 0.0, 1.0)) * float(width_nodes - 1u);
-    float j = min(floor(x), float(width_nodes - 2u));
-    uint row = begin + uint(j) * ALBEDO_COS_NODES;
-    return mix(albedo_row(row, local_o.z), albedo_row(row + ALBEDO_COS_NODES, local_o.z), x - j);
-}
-
-// Tables of lobes whose roughness varies hold one row for each of ALBEDO_ROUGHNESS_NODES roughnesses, evenly in their log.
-vec2 varying_albedo(uint begin, vec2 roughness, float cos_o) {
-    float m = sqrt(roughness.x * roughness.y);
-    float x = clamp(log2(m / ALBEDO_LEAST_ROUGHNESS) / -log2(ALBEDO_LEAST_ROUGHNESS), 0.0, 1.0) * float(ALBEDO_ROUGHNESS_NODES - 1u);
-    float j = min(floor(x), float(ALBEDO_ROUGHNESS_NODES - 2u));
-    uint row = begin + uint(j) * ALBEDO_COS_NODES;
-    return mix(albedo_row(row, cos_o), albedo_row(row + ALBEDO_COS_NODES, cos_o), x - j);
 }
 
 vec3 divide_or_zero(vec3 numerator, vec3 denominator) {

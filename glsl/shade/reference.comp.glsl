@@ -9,6 +9,7 @@
 #include "lib/kurt_lobe.glsl"
 #include "lib/random.glsl"
 #include "lib/spherical_harmonics.glsl"
+#include "shade/albedo.glsl"
 #include "shade/surface_point.glsl"
 
 layout(constant_id = SPEC_IS_QUADRATURE) const bool IS_QUADRATURE = false;
@@ -117,7 +118,12 @@ void main() {
         v.alpha = record.alpha;
         v.layer = float(map.layer);
         uint seed = hash_uint(point.index * 4u + which) ^ hash_uint(push.batch + 0x51633e2du);
-        batch += IS_QUADRATURE ? quadrature(v, map.face_size) : progressive(v, map, seed);
+        vec3 light = IS_QUADRATURE ? quadrature(v, map.face_size) : progressive(v, map, seed);
+        if (CONSERVES_ENERGY) {
+            vec2 albedo = lobe_albedo(record, v.lobe.roughness, v.local_o);
+            light *= conserving_scale(record, albedo, pow(max(v.local_o.z, MIN_COS), -v.alpha));
+        }
+        batch += light;
     }
     if (!point.is_mine) return;
     if (!is_finite(batch)) {

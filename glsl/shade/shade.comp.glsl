@@ -32,13 +32,8 @@ vec3 shade_lobe(PointToShade point, MapRecord map, uint lobe_index, uint which) 
         sums = gather_buffer(v, record.table_begin, record.table_count);
 
     vec2 albedo = vec2(0.0);
-    if (NORMALIZATION == NORMALIZATION_FURNACE) {
-        if (TABLE == TABLE_SCALED_REGULAR)
-            albedo = varying_albedo(record.albedo_begin, v.roughness, v.local_o.z);
-        else
-            albedo = lobe_albedo(record.albedo_begin, record.albedo_width_nodes, v.local_o, v.roughness);
-    }
-    return finish_lobe(v, sums, lobe.specular, lobe.grazing, albedo);
+    if (NORMALIZATION == NORMALIZATION_FURNACE || CONSERVES_ENERGY) albedo = lobe_albedo(record, v.roughness, v.local_o);
+    return finish_lobe(v, sums, lobe.specular, lobe.grazing, albedo) * conserving_scale(record, albedo, v.cos_o_power);
 }
 
 void main() {

@@ -121,6 +121,9 @@ void add_effect_lines(const Scene& scene, Plan& plan) {
     add_lobe_effect("alpha", "every lobe has alpha = 0", [](const Material& one) {
         return any_lobe(one, [](const KurtLobe& lobe) { return lobe.alpha != 0.0f; });
     });
+    add_lobe_effect("energy conservation", "no lobe asks for it", [](const Material& one) {
+        return any_lobe(one, [](const KurtLobe& lobe) { return lobe.conserve_energy && lobe.alpha > 0.0f; });
+    });
     add_lobe_effect("anisotropy", "every lobe is round", [](const Material& one) {
         return any_lobe(one, [](const KurtLobe& lobe) { return lobe.is_anisotropic(); }) ||
                has_texture(one, &MetallicRoughness::anisotropy_texture);

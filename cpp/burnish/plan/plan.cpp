@@ -81,6 +81,7 @@ ShadeTraits traits_of(const Scene& scene, const Plan& plan, const MaterialInstan
     for (const KurtLobe& lobe : material.lobes) {
         traits.has_fresnel |= lobe.has_fresnel() || traits.has_varying;
         traits.has_tangent |= lobe.is_anisotropic();
+        traits.conserves_energy |= lobe.conserve_energy && lobe.alpha > 0.0f; // with alpha = 0 nothing is gained
         const AlphaForm form = lobe.alpha == 0.0f ? AlphaForm::zero : lobe.alpha == 0.5f ? AlphaForm::half : AlphaForm::general;
         const bool is_first = &lobe == &material.lobes.front();
         traits.alpha = is_first || traits.alpha == form ? form : AlphaForm::general;
@@ -123,7 +124,7 @@ void share_pipelines(ShadeTraits& traits) {
     read_tables_from_buffer(traits);
     traits.has_diffuse = traits.has_emissive = traits.has_map_rotation = true;
     if (traits.lobe_count == 0) return;
-    traits.has_fresnel = traits.has_tangent = true;
+    traits.has_fresnel = traits.has_tangent = traits.conserves_energy = true;
     traits.alpha = AlphaForm::general;
     traits.has_coat = traits.has_varying && traits.lobe_count > 1;
 }

@@ -41,6 +41,7 @@ struct ShadeTraits {
     uint32_t lobe_count = 0;
     bool has_fresnel = false;
     AlphaForm alpha = AlphaForm::zero;
+    bool conserves_energy = false;
     bool has_tangent = false;
     bool has_diffuse = false;
     bool has_emissive = false;

@@ -32,6 +32,7 @@ std::vector<std::string> effect_names(const ShadeTraits& traits) {
     add(traits.has_fresnel, "fresnel");
     add(traits.alpha == AlphaForm::half, "alpha .5");
     add(traits.alpha == AlphaForm::general, "alpha");
+    add(traits.conserves_energy, "energy conservation");
     add(traits.has_tangent, "anisotropy");
     add(traits.has_diffuse, "diffuse");
     add(traits.has_emissive, "emissive");

@@ -40,6 +40,7 @@ vulkan::SpecializationConstants common_constants(const ShadeTraits& traits, uint
     vulkan::SpecializationConstants constants;
     constants.set(shared::SPEC_SOURCE, is_points ? shared::SOURCE_POINTS : shared::SOURCE_PIXELS)
         .set(shared::SPEC_LOBE_COUNT, traits.lobe_count)
+        .set(shared::SPEC_CONSERVES_ENERGY, traits.conserves_energy)
         .set(shared::SPEC_HAS_TANGENT, traits.has_tangent)
         .set(shared::SPEC_HAS_DIFFUSE, traits.has_diffuse)
         .set(shared::SPEC_HAS_EMISSIVE, traits.has_emissive)

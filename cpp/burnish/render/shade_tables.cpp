@@ -48,9 +48,7 @@ public:
     }
 
     /// First entry and azimuth nodes of the albedo table of a lobe.
-    Range albedo(TableForm form, glm::vec2 roughness, float alpha) {
-        if (!needs_albedo(plan_.settings.sampler)) return {0, 1};
-        const bool is_varying = form == TableForm::scaled;
+    Range albedo(bool is_varying, glm::vec2 roughness, float alpha) {
         const std::array<float, 3> key = is_varying ? std::array{0.0f, 0.0f, alpha} : std::array{roughness.x, roughness.y, alpha};
         auto found = albedo_ranges_.find(key);
         if (found == albedo_ranges_.end()) {
@@ -80,6 +78,7 @@ shared::LobeRecord lobe_record(const KurtLobe& lobe) {
     record.rotation_cos = std::cos(lobe.rotation);
     record.rotation_sin = std::sin(lobe.rotation);
     record.albedo_width_nodes = 1;
+    record.conserves_energy = lobe.conserve_energy ? 1 : 0;
     return record;
 }
 
@@ -156,7 +155,9 @@ ShadeTables make_shade_tables(const vulkan::DevicePointer& device, const Scene& 
                 record.table_begin = samples.begin;
                 record.table_count = samples.count;
                 counts[instance.shade_class].insert(samples.count);
-                const auto albedo = writer.albedo(traits.table, lobe.roughness, lobe.alpha);
+            }
+            if (needs_albedo(plan.settings.sampler) || traits.conserves_energy) {
+                const auto albedo = writer.albedo(traits.has_varying, lobe.roughness, lobe.alpha);
                 record.albedo_begin = albedo.begin;
                 record.albedo_width_nodes = albedo.count;
             }

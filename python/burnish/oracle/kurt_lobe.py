@@ -31,6 +31,8 @@ class LobeLike(Protocol):
     def weight(self) -> Any: ...  # noqa: D102
     @property
     def rotation(self) -> float: ...  # noqa: D102
+    @property
+    def conserve_energy(self) -> bool: ...  # noqa: D102
 
 
 @dataclass(frozen=True)
@@ -42,6 +44,7 @@ class KurtLobe:
     alpha: float = 0.0
     weight: Any = 1.0
     rotation: float = 0.0  # radians, turns the tangent counter-clockwise about the normal
+    conserve_energy: bool = False  # divide by the albedo of r0 = 1 where that exceeds 1
 
 
 def slopes(lobe: LobeLike) -> tuple[float, float]:

@@ -6,11 +6,22 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from .albedo import directional_albedo
 from .arrays import Array, as_array
 from .cube_map import pad_cube
-from .estimator import shade_diffuse, shade_lobe
+from .estimator import local_frame, shade_diffuse, shade_lobe
+from .kurt_lobe import LobeLike
 from .reference import shade_reference
 from .spherical_harmonics import project_cube
+
+
+def conserving_scale(normals: Array, tangents: Array, views: Array, lobe: LobeLike) -> Array:
+    """1 / max(1, E_1), (..., 1): what keeps a lobe from giving back more than it gets; 1 unless it asks for it."""
+    if not lobe.conserve_energy or lobe.alpha == 0.0:
+        return np.ones((*normals.shape[:-1], 1))
+    omega_o = local_frame(normals, tangents, views, lobe.rotation).omega_o
+    albedo: Array = directional_albedo(omega_o, lobe.roughness, lobe.alpha)[..., :1]
+    return 1.0 / np.maximum(albedo, 1.0)
 
 
 def shade(
@@ -41,9 +52,11 @@ def shade(
         total = total + shade_diffuse(project_cube(env_levels[0]), normals, material.diffuse)
     if type(sampler).__name__ == "Reference":
         for lobe in material.lobes:
-            total = total + shade_reference(env_levels[0], normals, tangents, views, lobe)
+            light = shade_reference(env_levels[0], normals, tangents, views, lobe)
+            total = total + light * conserving_scale(normals, tangents, views, lobe)
     elif material.lobes:
         cube = pad_cube(env_levels)
         for lobe in material.lobes:
-            total = total + shade_lobe(cube, normals, tangents, views, lobe, sampler)
+            light = shade_lobe(cube, normals, tangents, views, lobe, sampler)
+            total = total + light * conserving_scale(normals, tangents, views, lobe)
     return total + as_array(getattr(material, "emissive", 0.0))
