@@ -34,13 +34,13 @@ uint32_t common_face_size(EnvironmentSpan environments, uint32_t most_layers) {
 } // namespace
 
 EnvironmentMaps::EnvironmentMaps(std::shared_ptr<const vulkan::Device> device, Pyramid& pyramid,
-                                 EnvironmentSpan environments, PyramidFilter filter) {
+                                 EnvironmentSpan environments, std::optional<PyramidFilter> filter) {
     const uint32_t face_size = common_face_size(environments, device->limits().maxImageArrayLayers);
     const auto cube_count = static_cast<uint32_t>(environments.size());
     vulkan::ImageSettings settings;
     settings.format = VK_FORMAT_R16G16B16A16_SFLOAT;
     settings.width = settings.height = face_size;
-    settings.levels = vulkan::full_levels(face_size, face_size);
+    settings.levels = filter ? vulkan::full_levels(face_size, face_size) : 1;
     settings.layers = 6 * cube_count;
     settings.is_cube = true;
     image_ = vulkan::Image(device, settings);
@@ -56,9 +56,13 @@ EnvironmentMaps::EnvironmentMaps(std::shared_ptr<const vulkan::Device> device, P
     const std::chrono::duration<double, std::milli> upload_time = std::chrono::steady_clock::now() - start;
 
     vulkan::Commands commands(device);
-    commands.begin_pass("pyramid");
-    pyramid.record(commands, image_, 0, cube_count, filter);
-    commands.end_pass();
+    if (filter) {
+        commands.begin_pass("pyramid");
+        pyramid.record(commands, image_, 0, cube_count, *filter);
+        commands.end_pass();
+    } else {
+        commands.transition(image_, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
+    }
     commands.submit();
     pass_times_ = {{"upload", upload_time.count()}};
     pass_times_.insert(pass_times_.end(), commands.pass_times().begin(), commands.pass_times().end());

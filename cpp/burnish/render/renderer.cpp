@@ -49,12 +49,14 @@ std::vector<std::shared_ptr<EnvironmentMaps>> Renderer::prepare_maps(const Plan&
     std::erase_if(maps_, [](const CachedMaps& cached) {
         return std::any_of(cached.environments.begin(), cached.environments.end(), [](const auto& one) { return one.expired(); });
     });
+    const bool has_pyramid = std::any_of(plan.passes.begin(), plan.passes.end(), [](const PassLine& line) { return line.name == "pyramid"; });
+    const std::optional<PyramidFilter> filter = has_pyramid ? std::optional(plan.settings.filter) : std::nullopt;
     std::vector<std::shared_ptr<EnvironmentMaps>> result;
     for (const MapSet& set : plan.map_sets) {
         std::vector<std::shared_ptr<const Environment>> environments;
         for (const uint32_t k : set.environments) environments.push_back(plan.environments[k]);
         const auto found = std::find_if(maps_.begin(), maps_.end(), [&](const CachedMaps& cached) {
-            return cached.filter == plan.settings.filter &&
+            return (cached.filter == filter || !filter) &&
                    std::equal(cached.environments.begin(), cached.environments.end(), environments.begin(), environments.end(),
                               [](const auto& one, const auto& other) { return one.lock() == other; });
         });
@@ -62,9 +64,9 @@ std::vector<std::shared_ptr<EnvironmentMaps>> Renderer::prepare_maps(const Plan&
             result.push_back(found->maps);
             continue;
         }
-        const auto maps = std::make_shared<EnvironmentMaps>(device_, pyramid_, environments, plan.settings.filter);
+        const auto maps = std::make_shared<EnvironmentMaps>(device_, pyramid_, environments, filter);
         add_pass_times(times, maps->pass_times());
-        maps_.push_back({{environments.begin(), environments.end()}, plan.settings.filter, maps});
+        maps_.push_back({{environments.begin(), environments.end()}, filter, maps});
         result.push_back(maps);
     }
     return result;

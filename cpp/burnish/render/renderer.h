@@ -4,6 +4,7 @@
 #include <functional>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -60,7 +61,7 @@ public:
 private:
     struct CachedMaps {
         std::vector<std::weak_ptr<const Environment>> environments;
-        PyramidFilter filter;
+        std::optional<PyramidFilter> filter; // none: level 0 alone
         std::shared_ptr<EnvironmentMaps> maps;
     };
 
