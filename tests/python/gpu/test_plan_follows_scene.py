@@ -143,9 +143,28 @@ def test_frame_reports_what_the_plan_said(device, spots64):
     assert report.effects == plan["effects"]
     assert [one["effects"] for one in report.classes] == [one["effects"] for one in plan["classes"]]
     ran = {entry["name"] for entry in report.passes}
+    # The map's pyramid may be there from an earlier frame.
     assert set(passes(plan)) <= ran | {"pyramid"}, f"planned {passes(plan)}, ran {sorted(ran)}"
     assert all(entry["milliseconds"] >= 0 for entry in report.passes)
     assert report.size == (24, 32) and report.spp == 2
+
+
+def test_frame_runs_no_pass_that_was_not_planned(device):
+    """Also on an environment that no earlier frame has brought to the device."""
+    cases = [
+        (material(diffuse=1.0), burnish.Regular()),
+        (material(emissive=1.0), burnish.Regular()),
+        (material(LOBE), burnish.Reference(0.05)),
+        (material(LOBE), burnish.Regular()),
+    ]
+    environment = burnish.environments.uniform(face_size=4)
+    for shown, sampler in cases:
+        scene = scene_of(shown, environment=environment)
+        planned = set(passes(plan_of(scene, sampler)))
+        report = burnish.render(scene, size=(16, 16), sampler=sampler, device=device).report
+        assert {entry["name"] for entry in report.passes} <= planned | {"upload"}
+    # The last case needs levels that the ones before it did without.
+    assert "pyramid" in {entry["name"] for entry in report.passes}
 
 
 def test_plan_renders_nothing(monkeypatch, spots64):

@@ -1,4 +1,4 @@
-"""Thousands of frames leave memory flat; frames need no rights, display or second CPU; bad texels stay out."""
+"""Thousands of frames keep memory flat; frames need no rights, display or second CPU; bad texels stay out."""
 
 import json
 import os
