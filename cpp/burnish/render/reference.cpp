@@ -11,9 +11,14 @@
 namespace burnish::render {
 namespace {
 
-constexpr uint32_t BATCH_SIZE = 128;     // pairs of samples, lobe and map, in a progressive batch
+// Pairs of samples, lobe and map, in a progressive batch: many, as they are spread evenly within it, but not so many that the
+// least number of batches takes long on a large picture.
+constexpr uint32_t MIN_BATCH_SIZE = 64, MAX_BATCH_SIZE = 1024;
+constexpr double BATCH_SAMPLES = 1.6e7; // in all points together
 constexpr uint32_t LEAST_BATCHES = 8;    // below, their spread says too little
 constexpr double MAX_QUADRATURE = 1e9;   // points times texels: some seconds on two cores
+// llvmpipe ends any loop after 65535 rounds, without a word.
+constexpr uint32_t MAX_LOOP = 1u << 15;
 constexpr double DISPATCH_TEXELS = 1e8;  // points times texels in one dispatch: a GPU may not be held for long
 constexpr float LEAST_TEXELS_ACROSS = 8; // roughness in texels below which a sum over texels misses the lobe
 
@@ -95,7 +100,7 @@ void Renderer::run_reference(const Plan& plan, const ShadePass& pass, const Refe
     };
     if (buffers.is_quadrature) {
         const uint32_t texels = uint32_t(texels_of(plan));
-        const uint32_t step = std::clamp(uint32_t(DISPATCH_TEXELS / double(points)), 64u, texels);
+        const uint32_t step = std::clamp(uint32_t(DISPATCH_TEXELS / double(points)), 64u, MAX_LOOP);
         uint32_t batch = 0;
         for (uint32_t begin = 0; begin < texels; begin += step, ++batch) {
             run({0, 0, batch, 0, begin, std::min(begin + step, texels), 0, 0});
@@ -103,11 +108,13 @@ void Renderer::run_reference(const Plan& plan, const ShadePass& pass, const Refe
         }
         return;
     }
-    const uint32_t most = std::max(LEAST_BATCHES, settings.max_samples / (2 * BATCH_SIZE));
+    const uint32_t batch_size = std::clamp(uint32_t(std::min(BATCH_SAMPLES / double(points), double(settings.max_samples / (2 * LEAST_BATCHES)))),
+                                           MIN_BATCH_SIZE, MAX_BATCH_SIZE);
+    const uint32_t most = std::max(LEAST_BATCHES, settings.max_samples / (2 * batch_size));
     uint32_t batches = 0;
     double error = 1.0;
     for (uint32_t check = LEAST_BATCHES; batches < most;) {
-        run({0, 0, batches, BATCH_SIZE, 0, 0, 0, 0});
+        run({0, 0, batches, batch_size, 0, 0, 0, 0});
         ++batches;
         if (batches == check || batches == most) {
             error = relative_standard_error(buffers.statistics, points, batches);
@@ -119,7 +126,7 @@ void Renderer::run_reference(const Plan& plan, const ShadePass& pass, const Refe
         if (progress) progress(batches >= LEAST_BATCHES ? std::min(1.0, batches / needed) : 0.0, "reference batches");
     }
     report.standard_error = error;
-    report.reference_samples = batches * 2 * BATCH_SIZE;
+    report.reference_samples = batches * 2 * batch_size;
     if (error > settings.standard_error)
         report.warnings.push_back(message("the reference stopped at ", report.reference_samples, " samples a pixel with a standard error of ",
                                           error, ", not ", settings.standard_error));
