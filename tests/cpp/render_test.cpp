@@ -115,12 +115,16 @@ TEST(Render, ReportNamesThePassesThatThePlanNamed) {
 }
 
 TEST(Render, TinyGltfSceneShowsItsTriangle) {
-    // Half of the square -1..1: below the diagonal from the upper left to the lower right; it emits (1, 2, 3).
-    const auto folder = std::filesystem::temp_directory_path() / ("burnish_render_test_" + std::to_string(getpid()));
+    // Half of the square -1..1: below the diagonal from the upper left to the lower right; it emits (1, 2,
+    // 3).
+    const auto folder =
+        std::filesystem::temp_directory_path() / ("burnish_render_test_" + std::to_string(getpid()));
     std::filesystem::create_directories(folder);
     const float corners[] = {-1, -1, 0, 1, -1, 0, -1, 1, 0};
-    std::ofstream(folder / "t.bin", std::ios::binary).write(reinterpret_cast<const char*>(corners), sizeof corners);
-    std::ofstream(folder / "t.gltf") << R"({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}],
+    std::ofstream(folder / "t.bin", std::ios::binary)
+        .write(reinterpret_cast<const char*>(corners), sizeof corners);
+    std::ofstream(folder / "t.gltf")
+        << R"({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}],
         "nodes": [{"mesh": 0}], "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "material": 0}]}],
         "materials": [{"emissiveFactor": [0.25, 0.5, 0.75], "pbrMetallicRoughness": {"baseColorFactor": [0, 0, 0, 1]},
             "extensions": {"KHR_materials_emissive_strength": {"emissiveStrength": 4}}}],
@@ -140,9 +144,9 @@ TEST(Render, TinyGltfSceneShowsItsTriangle) {
     EXPECT_NEAR(inside.g, 2.0f, 1e-3f);
     EXPECT_NEAR(inside.b, 3.0f, 1e-3f);
     EXPECT_EQ(outside, glm::vec4(0.0f));
-    EXPECT_TRUE(std::any_of(frame.report.warnings.begin(), frame.report.warnings.end(), [](const std::string& warning) {
-        return warning.find("no environment") != std::string::npos;
-    }));
+    EXPECT_TRUE(std::any_of(
+        frame.report.warnings.begin(), frame.report.warnings.end(),
+        [](const std::string& warning) { return warning.find("no environment") != std::string::npos; }));
 }
 
 TEST(Render, PointsInAFurnaceShowTheDiffuseReflectance) {
@@ -158,7 +162,8 @@ TEST(Render, PointsInAFurnaceShowTheDiffuseReflectance) {
             EXPECT_NEAR(one[k], 2.0f * material.diffuse[k], 1e-3f);
     EXPECT_FALSE(pass_names(report).contains("pyramid"));
     const std::vector<glm::vec3> fewer(1, glm::vec3(0, 0, 1));
-    EXPECT_THROW(renderer().shade(uniform_environment(1.0f), material, {up, fewer, up}, {}), std::invalid_argument);
+    EXPECT_THROW(renderer().shade(uniform_environment(1.0f), material, {up, fewer, up}, {}),
+                 std::invalid_argument);
 }
 
 TEST(Render, SamplersAgreeInAFurnace) {
@@ -199,8 +204,10 @@ TEST(Capture, SeesTheLampOnItsSideAndLeavesTheObjectOut) {
 
 TEST(Render, FramesRefuseSizesOutOfRange) {
     const Scene scene = furnace_sphere(0.2f);
-    EXPECT_THROW(renderer().render(scene, scene.default_camera(), small_settings(0, 8)), std::invalid_argument);
-    EXPECT_THROW(renderer().render(scene, scene.default_camera(), small_settings(8, 16385)), std::invalid_argument);
+    EXPECT_THROW(renderer().render(scene, scene.default_camera(), small_settings(0, 8)),
+                 std::invalid_argument);
+    EXPECT_THROW(renderer().render(scene, scene.default_camera(), small_settings(8, 16385)),
+                 std::invalid_argument);
 }
 
 TEST(Render, ValidationLayerIsSilent) {

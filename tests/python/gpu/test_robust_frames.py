@@ -67,7 +67,7 @@ def run_python(code, *arguments, timeout=280, **options):
 
 def assert_memory_is_flat(count, timeout):
     before, after = json.loads(run_python(SMALL_FRAMES, str(count), timeout=timeout).splitlines()[-1])
-    # A heap's fragments may still grow by pages; one leaked 16 x 16 frame or 8 x 8 map each would be far more.
+    # A heap's fragments may grow by pages; one leaked 16 x 16 frame or 8 x 8 map each would be far more.
     assert after["resident"] - before["resident"] <= 4 << 20, f"{before} -> {after}"
     for name in before.keys() - {"resident"}:
         assert after[name] <= before[name] * 1.2 + 2, f"{name}: {before[name]} -> {after[name]}"
