@@ -80,6 +80,12 @@ GpuScene& Renderer::prepare_scene(const Scene& scene) {
         scene_ = std::make_unique<GpuScene>(device_, scene);
         scene_fingerprint_ = wanted;
     }
+    // Objects and materials may change without the meshes: their indices are checked each time.
+    for (const Object& object : scene.objects)
+        if (object.mesh >= scene.meshes.size() || object.material >= scene.materials.size())
+            throw std::invalid_argument(message("object \"", object.name, "\": expected a mesh below ", scene.meshes.size(),
+                                                " and a material below ", scene.materials.size(), ", got ", object.mesh, " and ",
+                                                object.material));
     return *scene_;
 }
 
@@ -126,8 +132,8 @@ Frame Renderer::render(const Scene& scene, const Camera& camera, const RenderSet
     if (settings.width < 1 || settings.height < 1 || settings.width > 16384 || settings.height > 16384)
         throw std::invalid_argument(message("size: expected 1..16384 pixels each way, got ", settings.height, " x ", settings.width));
     pipelines_.take_compile_ms();
-    const Plan plan = make_plan(scene, settings.plan);
     GpuScene& gpu_scene = prepare_scene(scene);
+    const Plan plan = make_plan(scene, settings.plan);
 
     Frame frame;
     frame.width = settings.width;
