@@ -46,7 +46,8 @@ def main() -> None:
     font, small = ImageFont.load_default(22), ImageFont.load_default(15)
     sheet = Image.new("RGB", (6 * FACE + 70, 560), (250, 250, 250))
     draw = ImageDraw.Draw(sheet)
-    draw.text((10, 8), "Lat-long map: longitude +180 (left) to -180 (right), latitude +90 in the top row", "black", small)
+    title = "Lat-long map: longitude +180 (left) to -180 (right), latitude +90 in the top row"
+    draw.text((10, 8), title, "black", small)
     height = 280
     sheet.paste(lat_long(height), (10, 32))
     for name, longitude in (("+Z", 0), ("+X", 90), ("-X", -90), ("-Z", 172), ("-Z", -172)):
@@ -55,22 +56,28 @@ def main() -> None:
     draw.text((10 + height, 16 + height), "-Y", "white", font, anchor="mm")
     draw.multiline_text(
         (2 * height + 30, 60),
-        "Right-handed, y up (glTF).\nA camera looks along its own -z.\nPictures: row 0 at the top.\nRadiance: linear Rec. 709 RGB.\n"
-        "Angles: radians; environment\nrotation: degrees about +y.",
+        "Right-handed, y up (glTF).\nA camera looks along its own -z.\nPictures: row 0 at the top.\n"
+        "Radiance: linear Rec. 709 RGB.\nAngles: radians; environment\nrotation: degrees about +y.",
         "black",
         small,
         spacing=8,
     )
-    draw.text((10, 330), "Cube faces in array order, as Environment.from_faces takes them; labels at the texel an axis meets", "black", small)
+    title = "Cube faces in array order, as Environment.from_faces takes them; labels where an axis meets"
+    draw.text((10, 330), title, "black", small)
     for index, name in enumerate(AXES):
         left = 10 + index * (FACE + 10)
         sheet.paste(face(index), (left, 356))
         draw.text((left + FACE / 2, 356 + FACE / 2), name, "white", font, anchor="mm")
-        u = cube_direction(np.array(index), np.array(1.0), np.array(0.0)) - cube_direction(np.array(index), np.array(0.0), np.array(0.0))
-        v = cube_direction(np.array(index), np.array(0.0), np.array(1.0)) - cube_direction(np.array(index), np.array(0.0), np.array(0.0))
+        center, toward_u, toward_v = (
+            cube_direction(np.array(index), np.array(u), np.array(v))
+            for u, v in ((0.0, 0.0), (1.0, 0.0), (0.0, 1.0))
+        )
+        u, v = toward_u - center, toward_v - center
         label = {tuple(axis): key for key, (axis, _) in AXES.items()}
         right, down = (label[tuple(int(c) for c in np.round(d))] for d in (u, v))
-        draw.text((left + FACE / 2, 356 + FACE + 6), f"right {right}  down {down}", "black", small, anchor="ma")
+        draw.text(
+            (left + FACE / 2, 356 + FACE + 6), f"right {right}  down {down}", "black", small, anchor="ma"
+        )
     sheet.save(Path(__file__).parent / "conventions.png")
 
 

@@ -69,7 +69,9 @@ def textured_sphere(path: Path, textures: dict[str, np.ndarray], has_colors: boo
         "asset": {"version": "2.0"},
         "scenes": [{"nodes": [0]}],
         "nodes": [{"mesh": 0}],
-        "meshes": [{"primitives": [{"attributes": attributes, "indices": len(accessors) - 1, "material": 0}]}],
+        "meshes": [
+            {"primitives": [{"attributes": attributes, "indices": len(accessors) - 1, "material": 0}]}
+        ],
         "materials": [material],
         "images": [{"uri": _png(pixels)} for pixels in textures.values()],
         "textures": [{"source": k} for k in range(len(textures))],
@@ -113,9 +115,18 @@ def effect_scenes(folder: Path, environment: Environment) -> Iterator[Row]:
     lobe = KurtLobe(0.1)
     once = (1, 1, 1)
     rows: dict[str, tuple[Scene, Scene]] = {
-        "fresnel": (_lobes(environment, KurtLobe(0.1, r0=1 - TRACE)), _lobes(environment, KurtLobe(0.1, r0=0.04))),
-        "alpha .5": (_lobes(environment, KurtLobe(0.1, alpha=TRACE)), _lobes(environment, KurtLobe(0.1, alpha=0.5))),
-        "alpha .3": (_lobes(environment, KurtLobe(0.1, alpha=TRACE)), _lobes(environment, KurtLobe(0.1, alpha=0.3))),
+        "fresnel": (
+            _lobes(environment, KurtLobe(0.1, r0=1 - TRACE)),
+            _lobes(environment, KurtLobe(0.1, r0=0.04)),
+        ),
+        "alpha .5": (
+            _lobes(environment, KurtLobe(0.1, alpha=TRACE)),
+            _lobes(environment, KurtLobe(0.1, alpha=0.5)),
+        ),
+        "alpha .3": (
+            _lobes(environment, KurtLobe(0.1, alpha=TRACE)),
+            _lobes(environment, KurtLobe(0.1, alpha=0.3)),
+        ),
         "anisotropy": (
             _lobes(environment, KurtLobe((0.1, 0.1 + TRACE))),
             _lobes(environment, KurtLobe((0.1, 0.05))),

@@ -26,7 +26,9 @@ PlanSettings plan_settings(const Sampler& sampler, int64_t spp, const std::strin
 
 py::list effects_list(const std::vector<EffectLine>& effects) {
     py::list result;
-    for (const EffectLine& line : effects) result.append(py::dict(py::arg("name") = line.name, py::arg("on") = line.is_on, py::arg("reason") = line.reason));
+    for (const EffectLine& line : effects)
+        result.append(py::dict(py::arg("name") = line.name, py::arg("on") = line.is_on,
+                               py::arg("reason") = line.reason));
     return result;
 }
 
@@ -36,21 +38,25 @@ py::dict report_dict(const render::Report& report) {
         passes.append(py::dict(py::arg("name") = pass.name, py::arg("milliseconds") = pass.milliseconds));
     std::string used;
     for (const render::ClassReport& one : report.classes) {
-        classes.append(py::dict(py::arg("effects") = one.effects, py::arg("table") = one.table, py::arg("samples") = one.samples,
-                                py::arg("reason") = one.reason));
-        if (!one.samples.empty() && used.find(one.samples) == std::string::npos) used += (used.empty() ? "" : ", ") + one.samples;
+        classes.append(py::dict(py::arg("effects") = one.effects, py::arg("table") = one.table,
+                                py::arg("samples") = one.samples, py::arg("reason") = one.reason));
+        if (!one.samples.empty() && used.find(one.samples) == std::string::npos)
+            used += (used.empty() ? "" : ", ") + one.samples;
     }
-    if (report.reference_samples) used = message(report.reference_samples, " (standard error ", report.standard_error, ")");
-    else if (report.sampler == "reference") used = "every texel";
+    if (report.reference_samples)
+        used = message(report.reference_samples, " (standard error ", report.standard_error, ")");
+    else if (report.sampler == "reference")
+        used = "every texel";
     py::dict result;
     result["version"] = BURNISH_VERSION;
-    result["device"] = py::dict(py::arg("name") = report.device_name, py::arg("driver") = report.device_driver,
-                                py::arg("is_software") = report.is_software);
+    result["device"] =
+        py::dict(py::arg("name") = report.device_name, py::arg("driver") = report.device_driver,
+                 py::arg("is_software") = report.is_software);
     result["size"] = py::make_tuple(report.height, report.width);
     result["spp"] = report.spp;
     result["filter"] = report.filter;
-    result["sampler"] = py::dict(py::arg("name") = report.sampler.substr(0, report.sampler.find(':')), py::arg("requested") = report.sampler,
-                                 py::arg("used") = used);
+    result["sampler"] = py::dict(py::arg("name") = report.sampler.substr(0, report.sampler.find(':')),
+                                 py::arg("requested") = report.sampler, py::arg("used") = used);
     result["passes"] = passes;
     result["compile_ms"] = report.compile_ms;
     result["prepare_ms"] = report.prepare_ms;
@@ -68,9 +74,11 @@ py::dict report_dict(const render::Report& report) {
 py::dict plan_dict(const Scene& scene, const Sampler& sampler, int64_t spp, const std::string& filter, bool) {
     const Plan plan = make_plan(scene, plan_settings(sampler, spp, filter));
     py::list passes, classes;
-    for (const PassLine& line : plan.passes) passes.append(py::dict(py::arg("name") = line.name, py::arg("reason") = line.reason));
+    for (const PassLine& line : plan.passes)
+        passes.append(py::dict(py::arg("name") = line.name, py::arg("reason") = line.reason));
     for (const ShadeClass& one : plan.classes) {
-        classes.append(py::dict(py::arg("effects") = render::effect_names(one.traits), py::arg("table") = render::table_name(one.traits.table),
+        classes.append(py::dict(py::arg("effects") = render::effect_names(one.traits),
+                                py::arg("table") = render::table_name(one.traits.table),
                                 py::arg("reason") = one.reason));
     }
     py::dict result;
@@ -91,13 +99,15 @@ std::vector<py::ssize_t> picture_shape(const render::Frame& frame, py::ssize_t c
 py::array_t<float> color_of(const render::Frame& frame) {
     std::vector<float> values(frame.radiance.size() * 3);
     for (size_t k = 0; k < frame.radiance.size(); ++k)
-        for (size_t c = 0; c < 3; ++c) values[3 * k + c] = frame.radiance[k][int(c)];
+        for (size_t c = 0; c < 3; ++c)
+            values[3 * k + c] = frame.radiance[k][int(c)];
     return make_array(std::move(values), picture_shape(frame, 3));
 }
 
 py::array_t<float> alpha_of(const render::Frame& frame) {
     std::vector<float> values(frame.radiance.size());
-    for (size_t k = 0; k < values.size(); ++k) values[k] = frame.radiance[k].a;
+    for (size_t k = 0; k < values.size(); ++k)
+        values[k] = frame.radiance[k].a;
     return make_array(std::move(values), picture_shape(frame, 1));
 }
 
@@ -112,13 +122,15 @@ std::span<const glm::vec3> directions(const py::array_t<float, py::array::c_styl
     return {reinterpret_cast<const glm::vec3*>(array.data()), size_t(array.shape(0))};
 }
 
-py::array_t<float> shade_points(render::Renderer& renderer, const std::shared_ptr<Environment>& environment, const Material& material,
-                                const Sampler& sampler, const py::array& normals, const py::array& tangents, const py::array& views,
+py::array_t<float> shade_points(render::Renderer& renderer, const std::shared_ptr<Environment>& environment,
+                                const Material& material, const Sampler& sampler, const py::array& normals,
+                                const py::array& tangents, const py::array& views,
                                 const std::string& filter) {
     const auto normal_array = require_array<float>(normals, "normals", {any, 3});
     const auto tangent_array = require_array<float>(tangents, "tangents", {any, 3});
     const auto view_array = require_array<float>(views, "views", {any, 3});
-    const render::ShadePoints points{directions(normal_array), directions(tangent_array), directions(view_array)};
+    const render::ShadePoints points{directions(normal_array), directions(tangent_array),
+                                     directions(view_array)};
     const PlanSettings settings = plan_settings(sampler, 1, filter);
     std::vector<glm::vec3> radiance;
     {
@@ -130,8 +142,9 @@ py::array_t<float> shade_points(render::Renderer& renderer, const std::shared_pt
     return make_array(std::move(values), {py::ssize_t(radiance.size()), 3});
 }
 
-std::shared_ptr<render::Frame> render_scene(render::Renderer& renderer, const Scene& scene, const Camera* camera, uint32_t height,
-                                            uint32_t width, const Sampler& sampler, int64_t spp, const std::string& filter,
+std::shared_ptr<render::Frame> render_scene(render::Renderer& renderer, const Scene& scene,
+                                            const Camera* camera, uint32_t height, uint32_t width,
+                                            const Sampler& sampler, int64_t spp, const std::string& filter,
                                             const std::optional<ProgressFunction>& progress) {
     render::RenderSettings settings;
     settings.width = width;
@@ -144,10 +157,12 @@ std::shared_ptr<render::Frame> render_scene(render::Renderer& renderer, const Sc
             if (PyErr_CheckSignals() != 0) throw py::error_already_set();
         };
     const py::gil_scoped_release release;
-    return std::make_shared<render::Frame>(renderer.render(scene, camera ? *camera : scene.default_camera(), settings));
+    return std::make_shared<render::Frame>(
+        renderer.render(scene, camera ? *camera : scene.default_camera(), settings));
 }
 
-py::list pyramid_levels(render::Renderer& renderer, const std::shared_ptr<Environment>& environment, const std::string& filter) {
+py::list pyramid_levels(render::Renderer& renderer, const std::shared_ptr<Environment>& environment,
+                        const std::string& filter) {
     std::vector<std::vector<float>> levels;
     {
         const PyramidFilter chosen = pyramid_filter(filter);
@@ -163,44 +178,55 @@ py::list pyramid_levels(render::Renderer& renderer, const std::shared_ptr<Enviro
     return result;
 }
 
-py::list pyramid_times(render::Renderer& renderer, const std::shared_ptr<Environment>& environment, const std::string& filter) {
+py::list pyramid_times(render::Renderer& renderer, const std::shared_ptr<Environment>& environment,
+                       const std::string& filter) {
     std::vector<vulkan::PassTime> times;
     renderer.pyramid(environment, pyramid_filter(filter), &times);
     py::list result;
-    for (const vulkan::PassTime& time : times) result.append(py::make_tuple(time.name, time.milliseconds));
+    for (const vulkan::PassTime& time : times)
+        result.append(py::make_tuple(time.name, time.milliseconds));
     return result;
 }
 
 } // namespace
 
 void bind_render(py::module_& m) {
-    py::class_<render::Frame, std::shared_ptr<render::Frame>>(m, "FrameData", "Pictures of one frame, copied when asked for.")
+    py::class_<render::Frame, std::shared_ptr<render::Frame>>(m, "FrameData",
+                                                              "Pictures of one frame, copied when asked for.")
         .def_property_readonly("color", &color_of, "(h, w, 3) float32, linear radiance.")
         .def_property_readonly("alpha", &alpha_of, "(h, w) float32, coverage by objects.")
         .def_property_readonly(
-            "depth", [](const render::Frame& frame) { return make_array(frame.depth(), picture_shape(frame, 1)); },
+            "depth",
+            [](const render::Frame& frame) { return make_array(frame.depth(), picture_shape(frame, 1)); },
             "(h, w) float32, distance along the camera's axis; infinity where nothing is.")
         .def_property_readonly("normal", &normal_of, "(h, w, 3) float32, world space; 0 where nothing is.")
-        .def_property_readonly("report", [](const render::Frame& frame) { return report_dict(frame.report); }, "dict: what it cost.");
+        .def_property_readonly(
+            "report", [](const render::Frame& frame) { return report_dict(frame.report); },
+            "dict: what it cost.");
 
-    m.def("render", &render_scene, py::arg("device"), py::arg("scene"), py::arg("camera").none(true), py::arg("height"), py::arg("width"),
-          py::arg("sampler"), py::arg("spp"), py::arg("filter"), py::arg("progress").none(true),
-          "Render one frame; burnish.render documents the arguments.");
-    m.def("shade", &shade_points, py::arg("device"), py::arg("environment"), py::arg("material"), py::arg("sampler"), py::arg("normals"),
-          py::arg("tangents"), py::arg("views"), py::arg("filter"), "Shade points; burnish.shade documents the arguments.");
-    m.def("environment_pyramid", &pyramid_levels, py::arg("device"), py::arg("environment"), py::arg("filter"),
+    m.def("render", &render_scene, py::arg("device"), py::arg("scene"), py::arg("camera").none(true),
+          py::arg("height"), py::arg("width"), py::arg("sampler"), py::arg("spp"), py::arg("filter"),
+          py::arg("progress").none(true), "Render one frame; burnish.render documents the arguments.");
+    m.def("shade", &shade_points, py::arg("device"), py::arg("environment"), py::arg("material"),
+          py::arg("sampler"), py::arg("normals"), py::arg("tangents"), py::arg("views"), py::arg("filter"),
+          "Shade points; burnish.shade documents the arguments.");
+    m.def("environment_pyramid", &pyramid_levels, py::arg("device"), py::arg("environment"),
+          py::arg("filter"),
           "List of (6, n, n, 3) float32, finest first, as lookups see them: rounded to half.");
     m.def("pyramid_times", &pyramid_times, py::arg("device"), py::arg("environment"), py::arg("filter"),
           "List of (pass, milliseconds) of making one map's pyramid, for benchmarks.");
     m.def(
         "time_lookups",
-        [](render::Renderer& renderer, const std::shared_ptr<Environment>& environment, const Regular& sampler, float roughness,
+        [](render::Renderer& renderer, const std::shared_ptr<Environment>& environment,
+           const Regular& sampler, float roughness,
            uint32_t repeats) { return renderer.time_lookups(environment, sampler, roughness, repeats); },
-        py::arg("device"), py::arg("environment"), py::arg("sampler"), py::arg("roughness"), py::arg("repeats"),
+        py::arg("device"), py::arg("environment"), py::arg("sampler"), py::arg("roughness"),
+        py::arg("repeats"),
         "List of milliseconds: the lookups of a 1920x1080 picture and nothing else, for benchmarks.");
     m.def(
         "time_shading",
-        [](render::Renderer& renderer, const Scene& scene, const Camera& camera, const Sampler& sampler, bool has_lookups) {
+        [](render::Renderer& renderer, const Scene& scene, const Camera& camera, const Sampler& sampler,
+           bool has_lookups) {
             render::RenderSettings settings;
             settings.width = 1920;
             settings.height = 1080;
@@ -210,15 +236,18 @@ void bind_render(py::module_& m) {
         },
         py::arg("device"), py::arg("scene"), py::arg("camera"), py::arg("sampler"), py::arg("has_lookups"),
         "dict: the report of a 1920x1080 frame, whose lookups may be left out, for benchmarks.");
-    m.def("plan", &plan_dict, py::arg("scene"), py::arg("sampler"), py::arg("spp"), py::arg("filter"), py::arg("is_software"),
+    m.def("plan", &plan_dict, py::arg("scene"), py::arg("sampler"), py::arg("spp"), py::arg("filter"),
+          py::arg("is_software"),
           "dict: passes, effects and shade classes with their reasons; nothing is rendered.");
     m.def(
         "capture",
-        [](render::Renderer& renderer, const Scene& scene, const Triple& point, uint32_t face_size, std::optional<uint32_t> without_object) {
+        [](render::Renderer& renderer, const Scene& scene, const Triple& point, uint32_t face_size,
+           std::optional<uint32_t> without_object) {
             const py::gil_scoped_release release;
             return render::capture(renderer, scene, vec3_of(point), face_size, without_object);
         },
-        py::arg("device"), py::arg("scene"), py::arg("point"), py::arg("face_size"), py::arg("without_object").none(true),
+        py::arg("device"), py::arg("scene"), py::arg("point"), py::arg("face_size"),
+        py::arg("without_object").none(true),
         "Environment seen from a point; Scene.capture documents the arguments.");
 }
 

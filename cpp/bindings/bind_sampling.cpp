@@ -23,8 +23,10 @@ struct Names {
         const auto found = values.find(name);
         if (found != values.end()) return found->second;
         std::string expected;
-        for (const auto& [known, value] : values) expected += (expected.empty() ? "\"" : ", \"") + known + "\"";
-        throw std::invalid_argument(message(argument, ": expected one of ", expected, ", got \"", name, "\""));
+        for (const auto& [known, value] : values)
+            expected += (expected.empty() ? "\"" : ", \"") + known + "\"";
+        throw std::invalid_argument(
+            message(argument, ": expected one of ", expected, ", got \"", name, "\""));
     }
     std::string name(Value value) const {
         for (const auto& [known, one] : values)
@@ -33,12 +35,14 @@ struct Names {
     }
 };
 
-const Names<Footprint> FOOTPRINTS{"footprint", {{"exact", Footprint::exact}, {"published", Footprint::published}}};
+const Names<Footprint> FOOTPRINTS{"footprint",
+                                  {{"exact", Footprint::exact}, {"published", Footprint::published}}};
 const Names<Normalization> NORMALIZATIONS{"normalization",
                                           {{"furnace", Normalization::furnace},
                                            {"projected", Normalization::projected},
                                            {"published", Normalization::published}}};
-const Names<PointSet> POINT_SETS{"points", {{"fibonacci", PointSet::fibonacci}, {"hammersley", PointSet::hammersley}}};
+const Names<PointSet> POINT_SETS{"points",
+                                 {{"fibonacci", PointSet::fibonacci}, {"hammersley", PointSet::hammersley}}};
 const Names<ReferenceMethod> METHODS{"method",
                                      {{"auto", ReferenceMethod::automatic},
                                       {"progressive", ReferenceMethod::progressive},
@@ -46,7 +50,8 @@ const Names<ReferenceMethod> METHODS{"method",
 const Names<Spacing> SPACINGS{"spacing", {{"s1", Spacing::s1}, {"s2", Spacing::s2}}};
 
 uint32_t count_of(const char* name, int64_t value, int64_t least, int64_t most) {
-    if (value < least || value > most) throw std::invalid_argument(message(name, ": expected ", least, "..", most, ", got ", value));
+    if (value < least || value > most)
+        throw std::invalid_argument(message(name, ": expected ", least, "..", most, ", got ", value));
     return uint32_t(value);
 }
 
@@ -56,18 +61,21 @@ Kind checked(Kind sampler) {
     return sampler;
 }
 
-py::array_t<double> sample_pattern(const Pair& roughness, const std::string& spacing, int64_t circles, double threshold) {
-    const std::vector<glm::dvec3> pattern =
-        regular_pattern(glm::dvec2(vec2_of(roughness)), SPACINGS.of(spacing), count_of("circles", circles, 1, 64), threshold);
+py::array_t<double> sample_pattern(const Pair& roughness, const std::string& spacing, int64_t circles,
+                                   double threshold) {
+    const std::vector<glm::dvec3> pattern = regular_pattern(
+        glm::dvec2(vec2_of(roughness)), SPACINGS.of(spacing), count_of("circles", circles, 1, 64), threshold);
     std::vector<double> values;
-    for (const glm::dvec3& h : pattern) values.insert(values.end(), {h.x, h.y, h.z});
+    for (const glm::dvec3& h : pattern)
+        values.insert(values.end(), {h.x, h.y, h.z});
     return make_array(std::move(values), {py::ssize_t(pattern.size()), 3});
 }
 
 } // namespace
 
 void bind_sampling(py::module_& m) {
-    py::class_<Regular>(m, "Regular", R"(Half-vectors on equally spaced circles (Regular Sampling, CGI 2014, section 5).
+    py::class_<Regular>(m, "Regular",
+                        R"(Half-vectors on equally spaced circles (Regular Sampling, CGI 2014, section 5).
 
 Parameters
 ----------
@@ -82,24 +90,31 @@ normalization : "furnace", "projected" or "published"
     (eq. 18, biased dark for wide lobes).
 mip_bias : float, -16..16
     Levels added to the footprint's.)")
-        .def(py::init([](int64_t samples, float threshold, const std::string& footprint, const std::string& normalization, float mip_bias) {
-                 return checked(Regular{count_of("samples", samples, 1, MAX_SAMPLES), threshold, FOOTPRINTS.of(footprint),
-                                        NORMALIZATIONS.of(normalization), mip_bias});
+        .def(py::init([](int64_t samples, float threshold, const std::string& footprint,
+                         const std::string& normalization, float mip_bias) {
+                 return checked(Regular{count_of("samples", samples, 1, MAX_SAMPLES), threshold,
+                                        FOOTPRINTS.of(footprint), NORMALIZATIONS.of(normalization),
+                                        mip_bias});
              }),
-             py::arg("samples") = 14, py::arg("threshold") = 0.2f, py::arg("footprint") = "exact", py::arg("normalization") = "furnace",
-             py::arg("mip_bias") = 0.0f)
+             py::arg("samples") = 14, py::arg("threshold") = 0.2f, py::arg("footprint") = "exact",
+             py::arg("normalization") = "furnace", py::arg("mip_bias") = 0.0f)
         .def_readonly("samples", &Regular::samples, "Budget of samples.")
         .def_readonly("threshold", &Regular::threshold, "xi_0.")
-        .def_property_readonly("footprint", [](const Regular& self) { return FOOTPRINTS.name(self.footprint); }, "Rule of the mip level.")
-        .def_property_readonly("normalization", [](const Regular& self) { return NORMALIZATIONS.name(self.normalization); },
-                               "What the sum is divided by.")
+        .def_property_readonly(
+            "footprint", [](const Regular& self) { return FOOTPRINTS.name(self.footprint); },
+            "Rule of the mip level.")
+        .def_property_readonly(
+            "normalization", [](const Regular& self) { return NORMALIZATIONS.name(self.normalization); },
+            "What the sum is divided by.")
         .def_readonly("mip_bias", &Regular::mip_bias, "Levels added.")
         .def("__repr__", [](const Regular& self) {
-            return message("Regular(samples=", self.samples, ", threshold=", self.threshold, ", footprint='", FOOTPRINTS.name(self.footprint),
-                           "', normalization='", NORMALIZATIONS.name(self.normalization), "', mip_bias=", self.mip_bias, ")");
+            return message("Regular(samples=", self.samples, ", threshold=", self.threshold, ", footprint='",
+                           FOOTPRINTS.name(self.footprint), "', normalization='",
+                           NORMALIZATIONS.name(self.normalization), "', mip_bias=", self.mip_bias, ")");
         });
 
-    py::class_<Importance>(m, "Importance", R"(Filtered importance sampling of the lobe (GPU Gems 3, chapter 20).
+    py::class_<Importance>(m, "Importance",
+                           R"(Filtered importance sampling of the lobe (GPU Gems 3, chapter 20).
 
 Parameters
 ----------
@@ -110,14 +125,17 @@ points : "hammersley" or "fibonacci"
 mip_bias : float, -16..16
     Levels added; the chapter uses 1.)")
         .def(py::init([](int64_t samples, const std::string& points, float mip_bias) {
-                 return checked(Importance{count_of("samples", samples, 1, MAX_SAMPLES), POINT_SETS.of(points), mip_bias});
+                 return checked(Importance{count_of("samples", samples, 1, MAX_SAMPLES),
+                                           POINT_SETS.of(points), mip_bias});
              }),
              py::arg("samples") = 14, py::arg("points") = "hammersley", py::arg("mip_bias") = 0.0f)
         .def_readonly("samples", &Importance::samples, "Lookups for each lobe.")
-        .def_property_readonly("points", [](const Importance& self) { return POINT_SETS.name(self.points); }, "Point set.")
+        .def_property_readonly(
+            "points", [](const Importance& self) { return POINT_SETS.name(self.points); }, "Point set.")
         .def_readonly("mip_bias", &Importance::mip_bias, "Levels added.")
         .def("__repr__", [](const Importance& self) {
-            return message("Importance(samples=", self.samples, ", points='", POINT_SETS.name(self.points), "', mip_bias=", self.mip_bias, ")");
+            return message("Importance(samples=", self.samples, ", points='", POINT_SETS.name(self.points),
+                           "', mip_bias=", self.mip_bias, ")");
         });
 
     py::class_<Reference>(m, "Reference", R"(The truth that others are judged by.
@@ -132,19 +150,22 @@ method : "auto", "quadrature" or "progressive"
 max_samples : int >= 64
     A progressive run stops there, with a warning.)")
         .def(py::init([](float standard_error, const std::string& method, int64_t max_samples) {
-                 return checked(Reference{standard_error, METHODS.of(method), count_of("max_samples", max_samples, 64, 1ll << 31)});
+                 return checked(Reference{standard_error, METHODS.of(method),
+                                          count_of("max_samples", max_samples, 64, 1ll << 31)});
              }),
              py::arg("standard_error") = 0.002f, py::arg("method") = "auto", py::arg("max_samples") = 65536)
         .def_readonly("standard_error", &Reference::standard_error, "Wanted relative standard error.")
-        .def_property_readonly("method", [](const Reference& self) { return METHODS.name(self.method); }, "How it is computed.")
+        .def_property_readonly(
+            "method", [](const Reference& self) { return METHODS.name(self.method); }, "How it is computed.")
         .def_readonly("max_samples", &Reference::max_samples, "Most samples a pixel.")
         .def("__repr__", [](const Reference& self) {
-            return message("Reference(standard_error=", self.standard_error, ", method='", METHODS.name(self.method), "', max_samples=",
-                           self.max_samples, ")");
+            return message("Reference(standard_error=", self.standard_error, ", method='",
+                           METHODS.name(self.method), "', max_samples=", self.max_samples, ")");
         });
 
-    m.def("sample_pattern", &sample_pattern, py::arg("roughness"), py::arg("spacing") = "s1", py::arg("circles") = 3,
-          py::arg("threshold") = 0.1, R"(Place half-vectors on equally spaced circles around the normal (CGI 2014, section 5).
+    m.def("sample_pattern", &sample_pattern, py::arg("roughness"), py::arg("spacing") = "s1",
+          py::arg("circles") = 3, py::arg("threshold") = 0.1,
+          R"(Place half-vectors on equally spaced circles around the normal (CGI 2014, section 5).
 
 Parameters
 ----------

@@ -146,7 +146,8 @@ ValueError
         .def_property_readonly(
             "weight", [](const KurtLobe& l) { return tuple_of(l.weight); }, "(float, float, float): colour.")
         .def_readonly("rotation", &KurtLobe::rotation, "Radians about the normal.")
-        .def_readonly("conserve_energy", &KurtLobe::conserve_energy, "Whether albedos above 1 are divided out.")
+        .def_readonly("conserve_energy", &KurtLobe::conserve_energy,
+                      "Whether albedos above 1 are divided out.")
         .def_property_readonly("is_anisotropic", &KurtLobe::is_anisotropic, "Whether the two slopes differ.")
         .def_property_readonly("has_fresnel", &KurtLobe::has_fresnel, "Whether r0 is below 1 anywhere.")
         .def("__repr__", &repr);

@@ -17,50 +17,62 @@ namespace {
 using Layout = std::map<std::string, size_t>;
 using namespace shared;
 
-#define FIELD(record, name)                                                                                            \
+#define FIELD(record, name)                                                                                  \
     { #name, offsetof(record, name) }
 
 std::map<std::string, Layout> shared_layout() {
     return {
         {"LobeRecord",
-         {FIELD(LobeRecord, specular), FIELD(LobeRecord, grazing), FIELD(LobeRecord, alpha), FIELD(LobeRecord, rotation_cos),
-          FIELD(LobeRecord, rotation_sin), FIELD(LobeRecord, table_begin), FIELD(LobeRecord, table_count), FIELD(LobeRecord, albedo_begin),
+         {FIELD(LobeRecord, specular), FIELD(LobeRecord, grazing), FIELD(LobeRecord, alpha),
+          FIELD(LobeRecord, rotation_cos), FIELD(LobeRecord, rotation_sin), FIELD(LobeRecord, table_begin),
+          FIELD(LobeRecord, table_count), FIELD(LobeRecord, albedo_begin),
           FIELD(LobeRecord, albedo_width_nodes), FIELD(LobeRecord, threshold_log),
-          FIELD(LobeRecord, conserves_energy), FIELD(LobeRecord, pad0), FIELD(LobeRecord, pad1), FIELD(LobeRecord, pad2)}},
+          FIELD(LobeRecord, conserves_energy), FIELD(LobeRecord, pad0), FIELD(LobeRecord, pad1),
+          FIELD(LobeRecord, pad2)}},
         {"MaterialRecord",
          {FIELD(MaterialRecord, diffuse), FIELD(MaterialRecord, emissive), FIELD(MaterialRecord, lobe_begin),
           FIELD(MaterialRecord, lobe_count), FIELD(MaterialRecord, map), FIELD(MaterialRecord, shade_class)}},
         {"MapRecord",
-         {FIELD(MapRecord, env_from_world_x), FIELD(MapRecord, env_from_world_y), FIELD(MapRecord, env_from_world_z),
-          FIELD(MapRecord, irradiance), FIELD(MapRecord, radiance_scale), FIELD(MapRecord, layer), FIELD(MapRecord, face_size),
-          FIELD(MapRecord, alias_begin)}},
+         {FIELD(MapRecord, env_from_world_x), FIELD(MapRecord, env_from_world_y),
+          FIELD(MapRecord, env_from_world_z), FIELD(MapRecord, irradiance), FIELD(MapRecord, radiance_scale),
+          FIELD(MapRecord, layer), FIELD(MapRecord, face_size), FIELD(MapRecord, alias_begin)}},
         {"ViewRecord",
-         {FIELD(ViewRecord, clip_from_world), FIELD(ViewRecord, ray_corner), FIELD(ViewRecord, ray_dx), FIELD(ViewRecord, ray_dy),
-          FIELD(ViewRecord, width_px), FIELD(ViewRecord, height_px), FIELD(ViewRecord, background_map), FIELD(ViewRecord, pad0)}},
-        {"SurfacePoint", {FIELD(SurfacePoint, normal), FIELD(SurfacePoint, tangent), FIELD(SurfacePoint, omega_o)}},
-        {"Counters", {FIELD(Counters, non_finite), FIELD(Counters, pad0), FIELD(Counters, pad1), FIELD(Counters, pad2)}},
+         {FIELD(ViewRecord, clip_from_world), FIELD(ViewRecord, ray_corner), FIELD(ViewRecord, ray_dx),
+          FIELD(ViewRecord, ray_dy), FIELD(ViewRecord, width_px), FIELD(ViewRecord, height_px),
+          FIELD(ViewRecord, background_map), FIELD(ViewRecord, pad0)}},
+        {"SurfacePoint",
+         {FIELD(SurfacePoint, normal), FIELD(SurfacePoint, tangent), FIELD(SurfacePoint, omega_o)}},
+        {"Counters",
+         {FIELD(Counters, non_finite), FIELD(Counters, pad0), FIELD(Counters, pad1), FIELD(Counters, pad2)}},
         {"SurfaceRecord",
-         {FIELD(SurfaceRecord, base_color), FIELD(SurfaceRecord, emissive), FIELD(SurfaceRecord, specular), FIELD(SurfaceRecord, metallic),
-          FIELD(SurfaceRecord, roughness), FIELD(SurfaceRecord, anisotropy), FIELD(SurfaceRecord, clearcoat),
-          FIELD(SurfaceRecord, clearcoat_roughness), FIELD(SurfaceRecord, normal_scale), FIELD(SurfaceRecord, occlusion_strength),
+         {FIELD(SurfaceRecord, base_color), FIELD(SurfaceRecord, emissive), FIELD(SurfaceRecord, specular),
+          FIELD(SurfaceRecord, metallic), FIELD(SurfaceRecord, roughness), FIELD(SurfaceRecord, anisotropy),
+          FIELD(SurfaceRecord, clearcoat), FIELD(SurfaceRecord, clearcoat_roughness),
+          FIELD(SurfaceRecord, normal_scale), FIELD(SurfaceRecord, occlusion_strength),
           FIELD(SurfaceRecord, texture_begin)}},
         {"DrawRecord",
-         {FIELD(DrawRecord, world_from_object), FIELD(DrawRecord, normal_from_object_x), FIELD(DrawRecord, normal_from_object_y),
-          FIELD(DrawRecord, normal_from_object_z), FIELD(DrawRecord, material), FIELD(DrawRecord, pad0), FIELD(DrawRecord, pad1),
+         {FIELD(DrawRecord, world_from_object), FIELD(DrawRecord, normal_from_object_x),
+          FIELD(DrawRecord, normal_from_object_y), FIELD(DrawRecord, normal_from_object_z),
+          FIELD(DrawRecord, material), FIELD(DrawRecord, pad0), FIELD(DrawRecord, pad1),
           FIELD(DrawRecord, pad2)}},
         {"ShadeRecord",
-         {FIELD(ShadeRecord, point_count), FIELD(ShadeRecord, tile_capacity), FIELD(ShadeRecord, batch), FIELD(ShadeRecord, batch_size),
-          FIELD(ShadeRecord, texel_begin), FIELD(ShadeRecord, texel_end), FIELD(ShadeRecord, pad0), FIELD(ShadeRecord, pad1)}},
+         {FIELD(ShadeRecord, point_count), FIELD(ShadeRecord, tile_capacity), FIELD(ShadeRecord, batch),
+          FIELD(ShadeRecord, batch_size), FIELD(ShadeRecord, texel_begin), FIELD(ShadeRecord, texel_end),
+          FIELD(ShadeRecord, pad0), FIELD(ShadeRecord, pad1)}},
         {"AccumulateRecord",
-         {FIELD(AccumulateRecord, count), FIELD(AccumulateRecord, is_first), FIELD(AccumulateRecord, weight), FIELD(AccumulateRecord, pad0)}},
+         {FIELD(AccumulateRecord, count), FIELD(AccumulateRecord, is_first), FIELD(AccumulateRecord, weight),
+          FIELD(AccumulateRecord, pad0)}},
         {"PyramidRecord",
-         {FIELD(PyramidRecord, source_begin), FIELD(PyramidRecord, source_pitch), FIELD(PyramidRecord, source_size),
-          FIELD(PyramidRecord, target_begin), FIELD(PyramidRecord, target_pitch), FIELD(PyramidRecord, pad0), FIELD(PyramidRecord, pad1),
+         {FIELD(PyramidRecord, source_begin), FIELD(PyramidRecord, source_pitch),
+          FIELD(PyramidRecord, source_size), FIELD(PyramidRecord, target_begin),
+          FIELD(PyramidRecord, target_pitch), FIELD(PyramidRecord, pad0), FIELD(PyramidRecord, pad1),
           FIELD(PyramidRecord, pad2)}},
         {"TexelAlias",
-         {FIELD(TexelAlias, threshold), FIELD(TexelAlias, alias), FIELD(TexelAlias, probability), FIELD(TexelAlias, pad0)}},
+         {FIELD(TexelAlias, threshold), FIELD(TexelAlias, alias), FIELD(TexelAlias, probability),
+          FIELD(TexelAlias, pad0)}},
         {"TextureRecord",
-         {FIELD(TextureRecord, scale_rotation), FIELD(TextureRecord, offset), FIELD(TextureRecord, uv_set), FIELD(TextureRecord, pad0)}},
+         {FIELD(TextureRecord, scale_rotation), FIELD(TextureRecord, offset), FIELD(TextureRecord, uv_set),
+          FIELD(TextureRecord, pad0)}},
     };
 }
 
@@ -69,7 +81,8 @@ std::map<std::string, Layout> shared_layout() {
 } // namespace
 
 void bind_shared(py::module_& m) {
-    m.def("shared_layout", &shared_layout, "dict of struct to dict of field to byte offset, as C++ lays them out.");
+    m.def("shared_layout", &shared_layout,
+          "dict of struct to dict of field to byte offset, as C++ lays them out.");
 }
 
 } // namespace burnish

@@ -13,7 +13,8 @@ namespace burnish {
 namespace {
 
 std::string version_text(uint32_t version) {
-    return std::to_string(VK_API_VERSION_MAJOR(version)) + "." + std::to_string(VK_API_VERSION_MINOR(version)) + "." +
+    return std::to_string(VK_API_VERSION_MAJOR(version)) + "." +
+           std::to_string(VK_API_VERSION_MINOR(version)) + "." +
            std::to_string(VK_API_VERSION_PATCH(version));
 }
 
@@ -60,12 +61,17 @@ void bind_vulkan(py::module_& m) {
         .def_readonly("driver", &vulkan::DeviceInfo::driver, "Name and version of the driver.")
         .def_readonly("is_software", &vulkan::DeviceInfo::is_software, "True for a CPU.")
         .def_property_readonly(
-            "api_version", [](const vulkan::DeviceInfo& info) { return version_text(info.api_version); }, "Vulkan version, \"1.3.230\".")
-        .def_readonly("refusals", &vulkan::DeviceInfo::refusals, "Why it cannot be used, a sentence each; empty = it can.")
-        .def("__repr__", [](const vulkan::DeviceInfo& info) { return "DeviceInfo('" + info.name + "', '" + info.driver + "')"; });
+            "api_version", [](const vulkan::DeviceInfo& info) { return version_text(info.api_version); },
+            "Vulkan version, \"1.3.230\".")
+        .def_readonly("refusals", &vulkan::DeviceInfo::refusals,
+                      "Why it cannot be used, a sentence each; empty = it can.")
+        .def("__repr__", [](const vulkan::DeviceInfo& info) {
+            return "DeviceInfo('" + info.name + "', '" + info.driver + "')";
+        });
 
     m.def("list_devices", &vulkan::list_devices, py::call_guard<py::gil_scoped_release>(),
-          "All Vulkan devices, with the reasons why some cannot be used. Raises VulkanError if there is no driver.");
+          "All Vulkan devices, with the reasons why some cannot be used. Raises VulkanError if there is no "
+          "driver.");
 
     py::class_<render::Renderer, std::shared_ptr<render::Renderer>>(m, "Device", R"(A Vulkan device, opened.
 
@@ -85,17 +91,25 @@ Raises
 VulkanError
     If no device fits; the message lists every device with the reason.)")
         .def(py::init(&open_device), py::arg("name") = "", py::arg("validation") = py::none())
-        .def_property_readonly("name", [](const render::Renderer& self) { return self.device()->info().name; }, "As the driver gives it.")
-        .def_property_readonly("driver", [](const render::Renderer& self) { return self.device()->info().driver; },
-                               "Name and version of the driver.")
-        .def_property_readonly("is_software", [](const render::Renderer& self) { return self.device()->info().is_software; },
-                               "True for a CPU.")
-        .def_property_readonly("api_version", [](const render::Renderer& self) { return version_text(self.device()->info().api_version); },
-                               "Vulkan version, \"1.3.230\".")
-        .def_property_readonly("limits", [](const render::Renderer& self) { return limits_of(*self.device()); },
-                               "dict: sizes the device can take.")
-        .def_property_readonly("features", [](const render::Renderer& self) { return features_of(*self.device()); },
-                               "dict: optional abilities.")
+        .def_property_readonly(
+            "name", [](const render::Renderer& self) { return self.device()->info().name; },
+            "As the driver gives it.")
+        .def_property_readonly(
+            "driver", [](const render::Renderer& self) { return self.device()->info().driver; },
+            "Name and version of the driver.")
+        .def_property_readonly(
+            "is_software", [](const render::Renderer& self) { return self.device()->info().is_software; },
+            "True for a CPU.")
+        .def_property_readonly(
+            "api_version",
+            [](const render::Renderer& self) { return version_text(self.device()->info().api_version); },
+            "Vulkan version, \"1.3.230\".")
+        .def_property_readonly(
+            "limits", [](const render::Renderer& self) { return limits_of(*self.device()); },
+            "dict: sizes the device can take.")
+        .def_property_readonly(
+            "features", [](const render::Renderer& self) { return features_of(*self.device()); },
+            "dict: optional abilities.")
         .def(
             "memory_statistics",
             [](const render::Renderer& self) {
@@ -108,9 +122,12 @@ VulkanError
                 return result;
             },
             "dict: blocks and bytes taken from the driver, bytes and allocations in use.")
-        .def("validation_messages", [](const render::Renderer& self) { return self.device()->validation_messages(); },
-             "Warnings and errors of the validation layer so far.")
-        .def("__repr__", [](const render::Renderer& self) { return "Device('" + self.device()->info().name + "')"; });
+        .def(
+            "validation_messages",
+            [](const render::Renderer& self) { return self.device()->validation_messages(); },
+            "Warnings and errors of the validation layer so far.")
+        .def("__repr__",
+             [](const render::Renderer& self) { return "Device('" + self.device()->info().name + "')"; });
 }
 
 } // namespace burnish

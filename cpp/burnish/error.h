@@ -21,7 +21,8 @@ std::string message(const Parts&... parts) {
 /// A file that cannot be used. The text starts with the path.
 class FileError : public std::runtime_error {
 public:
-    FileError(const std::string& path, const std::string& reason) : std::runtime_error(path + ": " + reason) {}
+    FileError(const std::string& path, const std::string& reason)
+        : std::runtime_error(path + ": " + reason) {}
 };
 
 /// A Vulkan call that failed, or a device that lacks what is asked of it.

@@ -72,7 +72,8 @@ TEST(CubeTexels, FaceAxesAreThoseOfTheEnvironment) {
     for (uint32_t face = 0; face < 6; ++face) {
         const FaceAxes axes = face_axes(face);
         const glm::dvec3 direction = glm::normalize(axes.axis + 0.5 * axes.right - 0.25 * axes.down);
-        EXPECT_LT(glm::length(direction - glm::dvec3(cube_direction(face, 0.5f, -0.25f))), 1e-6) << "face " << face;
+        EXPECT_LT(glm::length(direction - glm::dvec3(cube_direction(face, 0.5f, -0.25f))), 1e-6)
+            << "face " << face;
     }
 }
 
@@ -169,7 +170,8 @@ TEST(SphericalHarmonics, FindEachHarmonicInItsPlace) {
         const auto environment = environment_of(128, [&](const glm::dvec3& d) {
             return glm::dvec3(3.0 + functions[k](d), 6.0 + 2.0 * functions[k](d), 3.0);
         });
-        const std::array<glm::dvec3, 9> found = irradiance_over_pi_coefficients({environment->face_size(), environment->radiance()});
+        const std::array<glm::dvec3, 9> found =
+            irradiance_over_pi_coefficients({environment->face_size(), environment->radiance()});
         for (size_t j = 0; j < 9; ++j) {
             const double constant = j == 0 ? 3.0 / normalization[0] : 0.0;
             const double own = j == size_t(k) ? cosine_over_pi[j] / normalization[j] : 0.0;
@@ -186,7 +188,8 @@ TEST(SphericalHarmonics, AgreeWithTheCosineLobe) {
     for (const uint32_t face_size : {64u, 256u}) { // without and with threads
         const auto environment =
             environment_of(face_size, [](const glm::dvec3& d) { return glm::dvec3(std::max(d.z, 0.0)); });
-        const std::array<glm::dvec3, 9> found = irradiance_over_pi_coefficients({environment->face_size(), environment->radiance()});
+        const std::array<glm::dvec3, 9> found =
+            irradiance_over_pi_coefficients({environment->face_size(), environment->radiance()});
         const double tolerance = 2.0 / (face_size * face_size); // midpoint rule over texels
         EXPECT_NEAR(found[0].r, PI * PI / PI * std::sqrt(1.0 / (4.0 * PI)), tolerance);
         EXPECT_NEAR(found[2].r, (2.0 * PI / 3.0) * (2.0 / 3.0) * std::sqrt(3.0 / (4.0 * PI)), tolerance);
@@ -232,7 +235,8 @@ std::vector<double> expected_probabilities(const Environment& environment) {
 }
 
 void expect_draws_its_probabilities(const Environment& environment) {
-    const std::vector<shared::TexelAlias> table = build_texel_alias({environment.face_size(), environment.radiance()});
+    const std::vector<shared::TexelAlias> table =
+        build_texel_alias({environment.face_size(), environment.radiance()});
     const std::vector<double> expected = expected_probabilities(environment);
     ASSERT_EQ(table.size(), expected.size());
     std::vector<double> drawn(table.size());

@@ -30,9 +30,11 @@ constexpr TextureKind TEXTURE_KIND_NAMES[] = {
 /// The materials that objects show, each once.
 std::vector<const Material*> visible_materials(const Scene& scene) {
     std::set<uint32_t> used;
-    for (const Object& object : scene.objects) used.insert(object.material);
+    for (const Object& object : scene.objects)
+        used.insert(object.material);
     std::vector<const Material*> result;
-    for (const uint32_t material : used) result.push_back(&scene.materials[material]);
+    for (const uint32_t material : used)
+        result.push_back(&scene.materials[material]);
     return result;
 }
 
@@ -49,7 +51,8 @@ void add_material_line(const Scene& scene, Plan& plan, const std::string& name, 
                        const std::function<bool(const Material&)>& asks) {
     const std::vector<const Material*> all = visible_materials(scene);
     std::vector<const Material*> some;
-    std::copy_if(all.begin(), all.end(), std::back_inserter(some), [&](const Material* one) { return asks(*one); });
+    std::copy_if(all.begin(), all.end(), std::back_inserter(some),
+                 [&](const Material* one) { return asks(*one); });
     plan.effects.push_back({name, !some.empty(), some.empty() ? off_reason : listed(all, some)});
 }
 
@@ -64,19 +67,26 @@ bool has_texture(const Material& material, TextureUse MetallicRoughness::*which)
 }
 
 bool is_varying(const Material& material) {
-    return material.source && (material.source->has_vertex_color ||
-                               std::any_of(std::begin(TEXTURE_KIND_NAMES), std::end(TEXTURE_KIND_NAMES),
-                                           [&](const TextureKind& kind) { return has_texture(material, kind.use); }));
+    return material.source &&
+           (material.source->has_vertex_color ||
+            std::any_of(std::begin(TEXTURE_KIND_NAMES), std::end(TEXTURE_KIND_NAMES),
+                        [&](const TextureKind& kind) { return has_texture(material, kind.use); }));
 }
 
 bool has_diffuse(const Material& material) {
     return material.diffuse != glm::vec3(0.0f) ||
-           has_texture(material, &MetallicRoughness::metallic_roughness_texture); // may be less metallic than its factor
+           has_texture(
+               material,
+               &MetallicRoughness::metallic_roughness_texture); // may be less metallic than its factor
 }
 
-bool has_emissive(const Material& material) { return material.emissive != glm::vec3(0.0f); }
+bool has_emissive(const Material& material) {
+    return material.emissive != glm::vec3(0.0f);
+}
 
-bool has_coat(const Material& material) { return material.source && material.source->clearcoat > 0.0f; }
+bool has_coat(const Material& material) {
+    return material.source && material.source->clearcoat > 0.0f;
+}
 
 std::string describe(const ShadeClass& one, const Scene& scene, const Plan& plan, size_t constant_count) {
     std::vector<const Material*> some;
@@ -86,34 +96,45 @@ std::string describe(const ShadeClass& one, const Scene& scene, const Plan& plan
     }
     std::string text = listed(visible_materials(scene), some);
     switch (one.traits.table) {
-    case TableForm::none: break;
+    case TableForm::none:
+        break;
     case TableForm::constant:
-        text += message("; one roughness (", one.traits.roughness.x, ", ", one.traits.roughness.y, "), its samples are constants");
+        text += message("; one roughness (", one.traits.roughness.x, ", ", one.traits.roughness.y,
+                        "), its samples are constants");
         break;
     case TableForm::buffer:
-        if (one.traits.lobe_count > 1) text += "; several lobes, samples from a buffer";
+        if (one.traits.lobe_count > 1)
+            text += "; several lobes, samples from a buffer";
         else if (constant_count > MAX_CONSTANT_CLASSES)
-            text += message("; ", constant_count, " roughnesses in the picture, more than ", MAX_CONSTANT_CLASSES,
-                            " worth a pipeline each, samples from a buffer");
-        else text += "; too many samples for constants, samples from a buffer";
+            text += message("; ", constant_count, " roughnesses in the picture, more than ",
+                            MAX_CONSTANT_CLASSES, " worth a pipeline each, samples from a buffer");
+        else
+            text += "; too many samples for constants, samples from a buffer";
         break;
-    case TableForm::scaled: text += "; roughness varies over the surface, samples scale with it"; break;
+    case TableForm::scaled:
+        text += "; roughness varies over the surface, samples scale with it";
+        break;
     }
     return text;
 }
 
 void add_effect_lines(const Scene& scene, Plan& plan) {
     const bool has_lobes = plan.settings.has_lobes;
-    const auto add = [&](const char* name, const char* off, const std::function<bool(const Material&)>& asks) {
+    const auto add = [&](const char* name, const char* off,
+                         const std::function<bool(const Material&)>& asks) {
         add_material_line(scene, plan, name, off, asks);
     };
-    const auto add_lobe_effect = [&](const char* name, const char* off, const std::function<bool(const Material&)>& asks) {
-        if (has_lobes) add(name, off, asks);
-        else plan.effects.push_back({name, false, "captured maps leave lobes out"});
+    const auto add_lobe_effect = [&](const char* name, const char* off,
+                                     const std::function<bool(const Material&)>& asks) {
+        if (has_lobes)
+            add(name, off, asks);
+        else
+            plan.effects.push_back({name, false, "captured maps leave lobes out"});
     };
     add_lobe_effect("lobe", "no material has a lobe", [](const Material& one) { return !one.lobes.empty(); });
     for (uint32_t k = 2; k <= MAX_LOBES; ++k)
-        add_lobe_effect(("lobe " + std::to_string(k)).c_str(), ("no material has " + std::to_string(k) + " lobes").c_str(),
+        add_lobe_effect(("lobe " + std::to_string(k)).c_str(),
+                        ("no material has " + std::to_string(k) + " lobes").c_str(),
                         [k](const Material& one) { return one.lobes.size() >= k; });
     add_lobe_effect("fresnel", "every lobe has r0 = 1", [](const Material& one) {
         return any_lobe(one, [&](const KurtLobe& lobe) { return lobe.has_fresnel() || is_varying(one); });
@@ -131,38 +152,49 @@ void add_effect_lines(const Scene& scene, Plan& plan) {
     add("diffuse", "every diffuse reflectance is 0", has_diffuse);
     add("emissive", "no material emits", has_emissive);
     for (const TextureKind& kind : TEXTURE_KIND_NAMES)
-        add(kind.name, "no material has one", [&](const Material& one) { return has_texture(one, kind.use); });
+        add(kind.name, "no material has one",
+            [&](const Material& one) { return has_texture(one, kind.use); });
     add("vertex colour", "no material has vertex colours",
         [](const Material& one) { return one.source && one.source->has_vertex_color; });
-    add("alpha mask", "every material is opaque", [](const Material& one) { return one.alpha_mode != AlphaMode::opaque; });
+    add("alpha mask", "every material is opaque",
+        [](const Material& one) { return one.alpha_mode != AlphaMode::opaque; });
 
     const auto own = std::count_if(scene.objects.begin(), scene.objects.end(),
                                    [](const Object& object) { return object.reflects != nullptr; });
-    plan.effects.push_back({"own maps", own > 0, own > 0 ? message(own, " of ", scene.objects.size(), " objects reflect a map of their own")
-                                                         : "every object reflects the scene's environment"});
+    plan.effects.push_back(
+        {"own maps", own > 0,
+         own > 0 ? message(own, " of ", scene.objects.size(), " objects reflect a map of their own")
+                 : "every object reflects the scene's environment"});
     const bool has_rotation = std::any_of(plan.environments.begin(), plan.environments.end(),
                                           [](const auto& one) { return one->rotation != glm::mat3(1.0f); });
-    plan.effects.push_back({"map rotation", has_rotation, has_rotation ? "an environment is turned" : "no environment is turned"});
+    plan.effects.push_back({"map rotation", has_rotation,
+                            has_rotation ? "an environment is turned" : "no environment is turned"});
     plan.effects.push_back({"background", plan.has_background,
                             plan.has_background     ? "the environment is shown where no object is"
                             : scene.show_background ? "the scene has no environment"
                                                     : "switched off for the scene"});
-    plan.effects.push_back({"accumulation", plan.settings.spp > 1,
-                            plan.settings.spp > 1 ? message(plan.settings.spp, " jittered pictures are averaged") : "spp = 1"});
+    plan.effects.push_back(
+        {"accumulation", plan.settings.spp > 1,
+         plan.settings.spp > 1 ? message(plan.settings.spp, " jittered pictures are averaged") : "spp = 1"});
 }
 
 void add_pass_lines(Plan& plan) {
-    const auto add = [&](const char* name, std::string reason) { plan.passes.push_back({name, std::move(reason)}); };
+    const auto add = [&](const char* name, std::string reason) {
+        plan.passes.push_back({name, std::move(reason)});
+    };
     const bool has_lookups = std::any_of(plan.classes.begin(), plan.classes.end(),
                                          [](const ShadeClass& one) { return one.traits.lobe_count > 0; });
     const bool is_reference = std::holds_alternative<Reference>(plan.settings.sampler);
     if (has_lookups && !is_reference)
-        add("pyramid", message(pyramid_filter_name(plan.settings.filter), " levels of ", plan.environments.size(),
-                               plan.environments.size() == 1 ? " map" : " maps", ", once per map"));
-    add("surface", plan.has_varying ? "rasterises into the wide G-buffer: textures or vertex colours vary over a surface"
-                                    : "rasterises into 8 bytes a pixel and depth");
+        add("pyramid",
+            message(pyramid_filter_name(plan.settings.filter), " levels of ", plan.environments.size(),
+                    plan.environments.size() == 1 ? " map" : " maps", ", once per map"));
+    add("surface", plan.has_varying
+                       ? "rasterises into the wide G-buffer: textures or vertex colours vary over a surface"
+                       : "rasterises into 8 bytes a pixel and depth");
     add("tiles", message("lists the 8x8 tiles of ", plan.classes.size(),
-                         plan.classes.size() == 1 ? " shade class" : " shade classes", plan.has_background ? " and of the background" : ""));
+                         plan.classes.size() == 1 ? " shade class" : " shade classes",
+                         plan.has_background ? " and of the background" : ""));
     for (size_t k = 0; k < plan.classes.size(); ++k)
         plan.passes.push_back({message(is_reference ? "reference " : "shade ", k), plan.classes[k].reason});
     if (plan.has_background) add("background", "the environment where no object is");

@@ -14,11 +14,13 @@ namespace {
 
 /// Stands in where a scene has no environment: nothing is lit, nothing crashes.
 std::shared_ptr<const Environment> black_environment() {
-    static const auto black = std::make_shared<const Environment>(Environment::from_faces(1, std::vector<float>(18, 0.0f)));
+    static const auto black =
+        std::make_shared<const Environment>(Environment::from_faces(1, std::vector<float>(18, 0.0f)));
     return black;
 }
 
-uint32_t index_of(std::vector<std::shared_ptr<const Environment>>& environments, const std::shared_ptr<const Environment>& one) {
+uint32_t index_of(std::vector<std::shared_ptr<const Environment>>& environments,
+                  const std::shared_ptr<const Environment>& one) {
     const auto found = std::find(environments.begin(), environments.end(), one);
     if (found != environments.end()) return uint32_t(found - environments.begin());
     environments.push_back(one);
@@ -28,16 +30,19 @@ uint32_t index_of(std::vector<std::shared_ptr<const Environment>>& environments,
 /// Every pair of material and map that some object shows.
 void add_instances(const Scene& scene, Plan& plan) {
     for (const Object& object : scene.objects) {
-        const uint32_t environment = index_of(plan.environments, object.reflects ? object.reflects : plan.environments[0]);
-        const auto found = std::find_if(plan.instances.begin(), plan.instances.end(), [&](const MaterialInstance& instance) {
-            return instance.material == object.material && instance.environment == environment;
-        });
+        const uint32_t environment =
+            index_of(plan.environments, object.reflects ? object.reflects : plan.environments[0]);
+        const auto found =
+            std::find_if(plan.instances.begin(), plan.instances.end(), [&](const MaterialInstance& instance) {
+                return instance.material == object.material && instance.environment == environment;
+            });
         plan.object_instance.push_back(uint32_t(found - plan.instances.begin()));
         if (found == plan.instances.end()) plan.instances.push_back({object.material, environment, 0});
     }
     // A surface point names its instance in 16 bits, and 0 means none.
     if (plan.instances.size() > 0xfffe)
-        throw std::invalid_argument(message("scene: expected at most 65534 pairs of material and map, got ", plan.instances.size()));
+        throw std::invalid_argument(
+            message("scene: expected at most 65534 pairs of material and map, got ", plan.instances.size()));
 }
 
 void add_map_sets(Plan& plan) {
@@ -60,8 +65,10 @@ uint32_t map_set_of(const Plan& plan, uint32_t environment) {
 
 bool fits_into_constants(const Sampler& sampler) {
     const auto fits = [](uint32_t samples) { return samples + samples / 4 <= shared::MAX_CONSTANT_SAMPLES; };
-    if (const auto* regular = std::get_if<Regular>(&sampler)) return fits(regular->samples); // the pattern may exceed its budget
-    if (const auto* importance = std::get_if<Importance>(&sampler)) return importance->samples <= shared::MAX_CONSTANT_SAMPLES;
+    if (const auto* regular = std::get_if<Regular>(&sampler))
+        return fits(regular->samples); // the pattern may exceed its budget
+    if (const auto* importance = std::get_if<Importance>(&sampler))
+        return importance->samples <= shared::MAX_CONSTANT_SAMPLES;
     return false;
 }
 
@@ -81,8 +88,11 @@ ShadeTraits traits_of(const Scene& scene, const Plan& plan, const MaterialInstan
     for (const KurtLobe& lobe : material.lobes) {
         traits.has_fresnel |= lobe.has_fresnel() || traits.has_varying;
         traits.has_tangent |= lobe.is_anisotropic();
-        traits.conserves_energy |= lobe.conserve_energy && lobe.alpha > 0.0f; // with alpha = 0 nothing is gained
-        const AlphaForm form = lobe.alpha == 0.0f ? AlphaForm::zero : lobe.alpha == 0.5f ? AlphaForm::half : AlphaForm::general;
+        traits.conserves_energy |=
+            lobe.conserve_energy && lobe.alpha > 0.0f; // with alpha = 0 nothing is gained
+        const AlphaForm form = lobe.alpha == 0.0f   ? AlphaForm::zero
+                               : lobe.alpha == 0.5f ? AlphaForm::half
+                                                    : AlphaForm::general;
         const bool is_first = &lobe == &material.lobes.front();
         traits.alpha = is_first || traits.alpha == form ? form : AlphaForm::general;
     }
@@ -100,7 +110,8 @@ ShadeTraits traits_of(const Scene& scene, const Plan& plan, const MaterialInstan
 }
 
 /// Groups instances of equal traits, after `coarsen` has dropped what may be dropped.
-void group(Plan& plan, const std::vector<ShadeTraits>& traits, const std::function<void(ShadeTraits&)>& coarsen) {
+void group(Plan& plan, const std::vector<ShadeTraits>& traits,
+           const std::function<void(ShadeTraits&)>& coarsen) {
     plan.classes.clear();
     for (uint32_t k = 0; k < plan.instances.size(); ++k) {
         ShadeTraits wanted = traits[k];
@@ -131,17 +142,19 @@ void share_pipelines(ShadeTraits& traits) {
 
 void add_classes(const Scene& scene, Plan& plan) {
     std::vector<ShadeTraits> traits;
-    for (const MaterialInstance& instance : plan.instances) traits.push_back(traits_of(scene, plan, instance));
+    for (const MaterialInstance& instance : plan.instances)
+        traits.push_back(traits_of(scene, plan, instance));
     group(plan, traits, [](ShadeTraits&) {});
-    const auto constant_count = std::count_if(plan.classes.begin(), plan.classes.end(), [](const ShadeClass& one) {
-        return one.traits.table == TableForm::constant;
-    });
+    const auto constant_count =
+        std::count_if(plan.classes.begin(), plan.classes.end(),
+                      [](const ShadeClass& one) { return one.traits.table == TableForm::constant; });
     if (size_t(constant_count) > MAX_CONSTANT_CLASSES) group(plan, traits, read_tables_from_buffer);
     // One class is left for the background.
     if (plan.classes.size() > shared::MAX_SHADE_CLASSES - 1) group(plan, traits, share_pipelines);
     if (plan.classes.size() > shared::MAX_SHADE_CLASSES - 1)
         throw std::invalid_argument(message("scene: expected at most ", shared::MAX_SHADE_CLASSES - 1,
-                                            " combinations of lobe count, face size and texturing, got ", plan.classes.size()));
+                                            " combinations of lobe count, face size and texturing, got ",
+                                            plan.classes.size()));
     for (ShadeClass& one : plan.classes) {
         one.reason = describe(one, scene, plan, size_t(constant_count));
         plan.has_varying |= one.traits.has_varying;
@@ -154,7 +167,8 @@ void add_classes(const Scene& scene, Plan& plan) {
 
 Plan make_plan(const Scene& scene, const PlanSettings& settings) {
     validate(settings.sampler);
-    if (settings.spp < 1 || settings.spp > 65536) throw std::invalid_argument(message("spp: expected 1..65536, got ", settings.spp));
+    if (settings.spp < 1 || settings.spp > 65536)
+        throw std::invalid_argument(message("spp: expected 1..65536, got ", settings.spp));
     Plan plan;
     plan.settings = settings;
     plan.environments.push_back(scene.environment ? scene.environment : black_environment());

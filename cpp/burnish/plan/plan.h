@@ -1,4 +1,5 @@
-// What one scene needs of the engine: passes, shader variants and the reason for each. Pure data; knows no Vulkan.
+// What one scene needs of the engine: passes, shader variants and the reason for each. Pure data; knows no
+// Vulkan.
 #pragma once
 
 #include <cstdint>
@@ -17,7 +18,7 @@ struct PlanSettings {
     uint32_t spp = 1;
     PyramidFilter filter = PyramidFilter::gauss6;
     bool has_lookups = true; ///< false for benchmarks: shading alone, the picture means nothing
-    bool has_lobes = true; ///< false for captured maps: diffuse, emission and the far environment only
+    bool has_lobes = true;   ///< false for captured maps: diffuse, emission and the far environment only
 };
 
 /// One thing the engine can simulate, and whether this scene calls for it.
@@ -33,7 +34,8 @@ struct PassLine {
 };
 
 enum class AlphaForm { zero, half, general };
-/// Where a class's samples come from: baked into the pipeline, a buffer, or a buffer in units of a varying roughness.
+/// Where a class's samples come from: baked into the pipeline, a buffer, or a buffer in units of a varying
+/// roughness.
 enum class TableForm { none, constant, buffer, scaled };
 
 /// One specialised pipeline and what it is made for. Two materials of equal traits share it.

@@ -7,18 +7,20 @@
 
 namespace burnish::render {
 
-std::vector<double> Renderer::time_lookups(const std::shared_ptr<const Environment>& environment, const Regular& sampler, float roughness,
-                                           uint32_t repeats) {
+std::vector<double> Renderer::time_lookups(const std::shared_ptr<const Environment>& environment,
+                                           const Regular& sampler, float roughness, uint32_t repeats) {
     const std::lock_guard lock(mutex_);
     constexpr uint32_t width = 1920, height = 1080;
     const SampleTable table = build_sample_table(sampler, glm::vec2(roughness), environment->face_size());
     EnvironmentMaps maps(device_, pyramid_, std::span(&environment, 1), PyramidFilter::gauss6);
-    const vulkan::Buffer radiance(device_, width * height * sizeof(glm::vec4), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
+    const vulkan::Buffer radiance(device_, width * height * sizeof(glm::vec4),
+                                  VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
     const vulkan::Sampler cube_sampler(device_, {});
     vulkan::SpecializationConstants constants;
     constants.set(shared::SPEC_SAMPLE_COUNT, uint32_t(table.entries.size()));
     for (uint32_t k = 0; k < table.entries.size(); ++k)
-        for (uint32_t c = 0; c < 4; ++c) constants.set(shared::SPEC_SAMPLES + 4 * k + c, table.entries[k][int(c)]);
+        for (uint32_t c = 0; c < 4; ++c)
+            constants.set(shared::SPEC_SAMPLES + 4 * k + c, table.entries[k][int(c)]);
     const vulkan::ComputePipeline& pipeline = pipelines_.compute("shade/lookups_alone.comp", constants);
     vulkan::DescriptorSet set(pipeline);
     set.bind(shared::BINDING_MAPS, maps.image().view_as(VK_IMAGE_VIEW_TYPE_CUBE_ARRAY), cube_sampler)
@@ -29,7 +31,8 @@ std::vector<double> Renderer::time_lookups(const std::shared_ptr<const Environme
     for (uint32_t k = 0; k < repeats; ++k) {
         vulkan::Commands commands(device_);
         commands.begin_pass("lookups");
-        commands.dispatch(pipeline, set, vulkan::push_bytes(push), width / shared::TILE_SIZE, height / shared::TILE_SIZE);
+        commands.dispatch(pipeline, set, vulkan::push_bytes(push), width / shared::TILE_SIZE,
+                          height / shared::TILE_SIZE);
         commands.end_pass();
         commands.submit();
         times.push_back(commands.pass_times()[0].milliseconds);

@@ -14,11 +14,12 @@ namespace burnish {
 class EnvironmentMaps {
 public:
     /// Uploads the environments, all of one face size, as RGBA16F rounded to nearest even, and makes their
-    /// pyramids; without a filter level 0 alone. Rotation and exposure stay with the environments: they are applied when a map is looked up.
-    /// Throws std::invalid_argument if there is none, if one is null or of another size, or if the device's
-    /// images have too few layers.
+    /// pyramids; without a filter level 0 alone. Rotation and exposure stay with the environments: they are
+    /// applied when a map is looked up. Throws std::invalid_argument if there is none, if one is null or of
+    /// another size, or if the device's images have too few layers.
     EnvironmentMaps(std::shared_ptr<const vulkan::Device> device, Pyramid& pyramid,
-                    std::span<const std::shared_ptr<const Environment>> environments, std::optional<PyramidFilter> filter);
+                    std::span<const std::shared_ptr<const Environment>> environments,
+                    std::optional<PyramidFilter> filter);
 
     /// In SHADER_READ_ONLY_OPTIMAL; view() is the cube array, or the cube where there is one only.
     vulkan::Image& image() { return image_; }

@@ -10,7 +10,8 @@ namespace burnish::render {
 
 std::vector<float> Frame::depth() const {
     std::vector<float> result(raw_depth.size());
-    std::transform(raw_depth.begin(), raw_depth.end(), result.begin(), [&](float depth) { return view_depth(camera, depth); });
+    std::transform(raw_depth.begin(), raw_depth.end(), result.begin(),
+                   [&](float depth) { return view_depth(camera, depth); });
     return result;
 }
 
@@ -44,19 +45,26 @@ std::vector<std::string> effect_names(const ShadeTraits& traits) {
 
 const char* table_name(TableForm form) {
     switch (form) {
-    case TableForm::none: return "none";
-    case TableForm::constant: return "constant";
-    case TableForm::buffer: return "buffer";
-    case TableForm::scaled: return "scaled";
+    case TableForm::none:
+        return "none";
+    case TableForm::constant:
+        return "constant";
+    case TableForm::buffer:
+        return "buffer";
+    case TableForm::scaled:
+        return "scaled";
     }
     return "";
 }
 
 void add_pass_times(std::vector<vulkan::PassTime>& total, const std::vector<vulkan::PassTime>& times) {
     for (const vulkan::PassTime& time : times) {
-        auto found = std::find_if(total.begin(), total.end(), [&](const vulkan::PassTime& one) { return one.name == time.name; });
-        if (found == total.end()) total.push_back(time);
-        else found->milliseconds += time.milliseconds;
+        auto found = std::find_if(total.begin(), total.end(),
+                                  [&](const vulkan::PassTime& one) { return one.name == time.name; });
+        if (found == total.end())
+            total.push_back(time);
+        else
+            found->milliseconds += time.milliseconds;
     }
 }
 

@@ -24,17 +24,17 @@ struct Report {
     uint32_t width = 0, height = 0;
     uint32_t spp = 1;
     std::string filter;
-    std::string sampler;               ///< as asked for
+    std::string sampler;                  ///< as asked for
     std::vector<vulkan::PassTime> passes; ///< passes of one name added up, in order of first use
-    double compile_ms = 0.0;           ///< pipelines compiled for this frame; host clock, not part of the passes
-    double prepare_ms = 0.0;           ///< scene, maps and tables brought to the device; host clock
-    double wall_ms = 0.0;              ///< the whole call; host clock
+    double compile_ms = 0.0; ///< pipelines compiled for this frame; host clock, not part of the passes
+    double prepare_ms = 0.0; ///< scene, maps and tables brought to the device; host clock
+    double wall_ms = 0.0;    ///< the whole call; host clock
     std::vector<EffectLine> effects;
     std::vector<ClassReport> classes;
     uint64_t triangles = 0;
-    uint64_t non_finite = 0;           ///< values stopped on the device
-    double standard_error = 0.0;       ///< relative, reached by a progressive reference; else 0
-    uint32_t reference_samples = 0;    ///< per pixel, of a progressive reference
+    uint64_t non_finite = 0;        ///< values stopped on the device
+    double standard_error = 0.0;    ///< relative, reached by a progressive reference; else 0
+    uint32_t reference_samples = 0; ///< per pixel, of a progressive reference
     std::vector<std::string> warnings;
     std::vector<std::string> ignored_extensions;
 };
@@ -42,9 +42,9 @@ struct Report {
 struct Frame {
     uint32_t width = 0, height = 0;
     Camera camera;
-    std::vector<glm::vec4> radiance;   ///< rgb: linear radiance; a: coverage by objects
-    std::vector<float> raw_depth;      ///< reverse z, of the first picture
-    std::vector<glm::uvec2> surface;   ///< packed surface attributes, of the first picture
+    std::vector<glm::vec4> radiance; ///< rgb: linear radiance; a: coverage by objects
+    std::vector<float> raw_depth;    ///< reverse z, of the first picture
+    std::vector<glm::uvec2> surface; ///< packed surface attributes, of the first picture
     Report report;
 
     /// Distance along the camera's axis; infinity where nothing is.

@@ -17,7 +17,8 @@ glm::vec2 in_basis(glm::vec3 n, glm::vec3 t) {
     const float s = n.z >= 0.0f ? 1.0f : -1.0f;
     const float a = -1.0f / (s + n.z);
     const float b = n.x * n.y * a;
-    return {glm::dot(t, {1.0f + s * n.x * n.x * a, s * b, -s * n.x}), glm::dot(t, {b, s + n.y * n.y * a, -n.y})};
+    return {glm::dot(t, {1.0f + s * n.x * n.x * a, s * b, -s * n.x}),
+            glm::dot(t, {b, s + n.y * n.y * a, -n.y})};
 }
 
 float diamond_encode(glm::vec2 v) {
@@ -49,7 +50,8 @@ Vertex pack_vertex(const Mesh& mesh, size_t k) {
     const glm::vec3 normal = octahedral_decode({glm::unpackSnorm1x16(uint16_t(vertex.normal_tangent[0])),
                                                 glm::unpackSnorm1x16(uint16_t(vertex.normal_tangent[1]))});
     const bool has_tangent = !mesh.tangents.empty();
-    const glm::vec3 tangent = has_tangent ? glm::vec3(mesh.tangents[k]) : glm::vec3(normal.z, 0.0f, -normal.x);
+    const glm::vec3 tangent =
+        has_tangent ? glm::vec3(mesh.tangents[k]) : glm::vec3(normal.z, 0.0f, -normal.x);
     vertex.normal_tangent[2] = int16_t(glm::packSnorm1x16(diamond_encode(in_basis(normal, tangent))));
     vertex.normal_tangent[3] = has_tangent && mesh.tangents[k].w < 0.0f ? -32767 : 32767;
     return vertex;
@@ -60,7 +62,8 @@ TextureVertex pack_texture_vertex(const Mesh& mesh, size_t k) {
     if (!mesh.uv0.empty()) vertex.uv0 = mesh.uv0[k];
     if (!mesh.uv1.empty()) vertex.uv1 = mesh.uv1[k];
     const glm::vec4 color = mesh.colors.empty() ? glm::vec4(1.0f) : mesh.colors[k];
-    for (int c = 0; c < 4; ++c) vertex.color[c] = glm::packUnorm1x16(color[c]);
+    for (int c = 0; c < 4; ++c)
+        vertex.color[c] = glm::packUnorm1x16(color[c]);
     return vertex;
 }
 
@@ -85,9 +88,12 @@ uint64_t mix(uint64_t hash, const std::vector<T>& values) {
 
 VkSamplerAddressMode address_mode(WrapMode mode) {
     switch (mode) {
-    case WrapMode::repeat: return VK_SAMPLER_ADDRESS_MODE_REPEAT;
-    case WrapMode::mirrored_repeat: return VK_SAMPLER_ADDRESS_MODE_MIRRORED_REPEAT;
-    case WrapMode::clamp_to_edge: return VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
+    case WrapMode::repeat:
+        return VK_SAMPLER_ADDRESS_MODE_REPEAT;
+    case WrapMode::mirrored_repeat:
+        return VK_SAMPLER_ADDRESS_MODE_MIRRORED_REPEAT;
+    case WrapMode::clamp_to_edge:
+        return VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
     }
     return VK_SAMPLER_ADDRESS_MODE_REPEAT;
 }
@@ -105,11 +111,13 @@ uint64_t fingerprint(const Scene& scene) {
         hash = mix(hash, mesh.colors);
         hash = mix(hash, mesh.indices);
     }
-    for (const TextureImage& image : scene.images) hash = mix(hash ^ (uint64_t(image.width) << 32), image.rgba);
+    for (const TextureImage& image : scene.images)
+        hash = mix(hash ^ (uint64_t(image.width) << 32), image.rgba);
     return hash;
 }
 
-GpuScene::GpuScene(const vulkan::DevicePointer& device, const Scene& scene) : device_(device), pictures_(scene.images) {
+GpuScene::GpuScene(const vulkan::DevicePointer& device, const Scene& scene)
+    : device_(device), pictures_(scene.images) {
     upload_meshes(device, scene);
 }
 
@@ -117,9 +125,11 @@ void GpuScene::upload_meshes(const vulkan::DevicePointer& device, const Scene& s
     std::vector<Vertex> vertices;
     std::vector<TextureVertex> texture_vertices;
     std::vector<uint32_t> indices;
-    for (const Mesh& mesh : scene.meshes) has_texture_vertices_ |= !mesh.uv0.empty() || !mesh.colors.empty();
+    for (const Mesh& mesh : scene.meshes)
+        has_texture_vertices_ |= !mesh.uv0.empty() || !mesh.colors.empty();
     for (const Mesh& mesh : scene.meshes) {
-        meshes_.push_back({uint32_t(indices.size()), uint32_t(mesh.indices.size()), int32_t(vertices.size())});
+        meshes_.push_back(
+            {uint32_t(indices.size()), uint32_t(mesh.indices.size()), int32_t(vertices.size())});
         for (size_t k = 0; k < mesh.positions.size(); ++k) {
             vertices.push_back(pack_vertex(mesh, k));
             if (has_texture_vertices_) texture_vertices.push_back(pack_texture_vertex(mesh, k));
@@ -130,9 +140,12 @@ void GpuScene::upload_meshes(const vulkan::DevicePointer& device, const Scene& s
     if (vertices.empty()) vertices.emplace_back();
     if (texture_vertices.empty()) texture_vertices.push_back(pack_texture_vertex(Mesh{}, 0));
     if (indices.empty()) indices.push_back(0);
-    vertices_ = vulkan::make_buffer(device, std::as_bytes(std::span(vertices)), VK_BUFFER_USAGE_VERTEX_BUFFER_BIT);
-    texture_vertices_ = vulkan::make_buffer(device, std::as_bytes(std::span(texture_vertices)), VK_BUFFER_USAGE_VERTEX_BUFFER_BIT);
-    indices_ = vulkan::make_buffer(device, std::as_bytes(std::span(indices)), VK_BUFFER_USAGE_INDEX_BUFFER_BIT);
+    vertices_ =
+        vulkan::make_buffer(device, std::as_bytes(std::span(vertices)), VK_BUFFER_USAGE_VERTEX_BUFFER_BIT);
+    texture_vertices_ = vulkan::make_buffer(device, std::as_bytes(std::span(texture_vertices)),
+                                            VK_BUFFER_USAGE_VERTEX_BUFFER_BIT);
+    indices_ =
+        vulkan::make_buffer(device, std::as_bytes(std::span(indices)), VK_BUFFER_USAGE_INDEX_BUFFER_BIT);
 }
 
 vulkan::Image GpuScene::upload_image(const TextureImage& picture, bool is_srgb) const {
@@ -164,17 +177,22 @@ BoundTexture GpuScene::texture(const TextureUse& use, bool is_srgb) {
         const TextureImage& picture = use.is_used() ? pictures_[size_t(use.image)] : white;
         image = images_.emplace(key, upload_image(picture, key.second)).first;
     }
-    const std::array<int, 5> sampler_key = {int(use.sampler.wrap_u), int(use.sampler.wrap_v), int(use.sampler.magnify),
-                                            int(use.sampler.minify), int(use.sampler.mip)};
+    const std::array<int, 5> sampler_key = {int(use.sampler.wrap_u), int(use.sampler.wrap_v),
+                                            int(use.sampler.magnify), int(use.sampler.minify),
+                                            int(use.sampler.mip)};
     auto sampler = samplers_.find(sampler_key);
     if (sampler == samplers_.end()) {
         vulkan::SamplerSettings settings;
         settings.wrap_u = address_mode(use.sampler.wrap_u);
         settings.wrap_v = address_mode(use.sampler.wrap_v);
-        settings.magnification = use.sampler.magnify == TextureFilter::linear ? VK_FILTER_LINEAR : VK_FILTER_NEAREST;
-        settings.minification = use.sampler.minify == TextureFilter::linear ? VK_FILTER_LINEAR : VK_FILTER_NEAREST;
-        settings.mip_mode = use.sampler.mip == MipFilter::linear ? VK_SAMPLER_MIPMAP_MODE_LINEAR : VK_SAMPLER_MIPMAP_MODE_NEAREST;
-        settings.max_lod = use.sampler.mip == MipFilter::none ? 0.25f : VK_LOD_CLAMP_NONE; // .25: keeps minification apart
+        settings.magnification =
+            use.sampler.magnify == TextureFilter::linear ? VK_FILTER_LINEAR : VK_FILTER_NEAREST;
+        settings.minification =
+            use.sampler.minify == TextureFilter::linear ? VK_FILTER_LINEAR : VK_FILTER_NEAREST;
+        settings.mip_mode = use.sampler.mip == MipFilter::linear ? VK_SAMPLER_MIPMAP_MODE_LINEAR
+                                                                 : VK_SAMPLER_MIPMAP_MODE_NEAREST;
+        settings.max_lod =
+            use.sampler.mip == MipFilter::none ? 0.25f : VK_LOD_CLAMP_NONE; // .25: keeps minification apart
         sampler = samplers_.emplace(sampler_key, vulkan::Sampler(device_, settings)).first;
     }
     return {&image->second, &sampler->second};

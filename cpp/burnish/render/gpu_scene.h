@@ -1,4 +1,5 @@
-// A scene's triangles and pictures on the device. Materials are small and change often: they are in ShadeTables.
+// A scene's triangles and pictures on the device. Materials are small and change often: they are in
+// ShadeTables.
 #pragma once
 
 #include <array>

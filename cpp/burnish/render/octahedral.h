@@ -8,7 +8,9 @@
 
 namespace burnish::render {
 
-inline glm::vec2 sign_not_zero(glm::vec2 v) { return {v.x >= 0.0f ? 1.0f : -1.0f, v.y >= 0.0f ? 1.0f : -1.0f}; }
+inline glm::vec2 sign_not_zero(glm::vec2 v) {
+    return {v.x >= 0.0f ? 1.0f : -1.0f, v.y >= 0.0f ? 1.0f : -1.0f};
+}
 
 inline glm::vec2 octahedral_encode(glm::vec3 n) {
     const glm::vec2 p = glm::vec2(n) / (std::abs(n.x) + std::abs(n.y) + std::abs(n.z));

@@ -3,11 +3,11 @@
 #include <span>
 #include <stdexcept>
 
-#include "spirv/shade_lookups_alone_comp.h"
 #include "spirv/resolve_accumulate_comp.h"
 #include "spirv/shade_background_comp.h"
 #include "spirv/shade_classify_tiles_comp.h"
 #include "spirv/shade_finish_tiles_comp.h"
+#include "spirv/shade_lookups_alone_comp.h"
 #include "spirv/shade_reference_comp.h"
 #include "spirv/shade_shade_comp.h"
 #include "spirv/surface_surface_frag.h"
@@ -48,7 +48,8 @@ const vulkan::Shader& Pipelines::shader(const std::string& name) {
     return find_shader(name);
 }
 
-const vulkan::ComputePipeline& Pipelines::compute(const std::string& name, const vulkan::SpecializationConstants& constants) {
+const vulkan::ComputePipeline& Pipelines::compute(const std::string& name,
+                                                  const vulkan::SpecializationConstants& constants) {
     const std::lock_guard lock(mutex_);
     const auto key = std::make_pair(name, constants);
     auto found = compute_.find(key);
@@ -60,7 +61,8 @@ const vulkan::ComputePipeline& Pipelines::compute(const std::string& name, const
 }
 
 const vulkan::GraphicsPipeline& Pipelines::graphics(const std::string& vertex, const std::string& fragment,
-                                                    const std::string& key_text, const vulkan::GraphicsSettings& settings) {
+                                                    const std::string& key_text,
+                                                    const vulkan::GraphicsSettings& settings) {
     const std::lock_guard lock(mutex_);
     const auto key = std::make_pair(vertex + "+" + fragment + "+" + key_text, settings.constants);
     auto found = graphics_.find(key);

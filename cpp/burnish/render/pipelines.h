@@ -1,4 +1,5 @@
-// All shaders of the engine by name, and the pipelines made from them, each once for its specialization constants.
+// All shaders of the engine by name, and the pipelines made from them, each once for its specialization
+// constants.
 #pragma once
 
 #include <map>
@@ -15,11 +16,14 @@ class Pipelines {
 public:
     explicit Pipelines(vulkan::DevicePointer device) : device_(std::move(device)) {}
 
-    /// `name` is the file under glsl/ without its ending: "shade/shade.comp". Throws std::logic_error for one there is not.
+    /// `name` is the file under glsl/ without its ending: "shade/shade.comp". Throws std::logic_error for one
+    /// there is not.
     const vulkan::Shader& shader(const std::string& name);
-    const vulkan::ComputePipeline& compute(const std::string& name, const vulkan::SpecializationConstants& constants = {});
+    const vulkan::ComputePipeline& compute(const std::string& name,
+                                           const vulkan::SpecializationConstants& constants = {});
     /// `settings.constants` and `key` tell pipelines of the same two shaders apart.
-    const vulkan::GraphicsPipeline& graphics(const std::string& vertex, const std::string& fragment, const std::string& key,
+    const vulkan::GraphicsPipeline& graphics(const std::string& vertex, const std::string& fragment,
+                                             const std::string& key,
                                              const vulkan::GraphicsSettings& settings);
 
     /// Milliseconds spent compiling since the last call.

@@ -11,22 +11,25 @@
 namespace burnish::render {
 namespace {
 
-// Pairs of samples, lobe and map, in a progressive batch: many, as they are spread evenly within it, but not so many that the
-// least number of batches takes long on a large picture.
+// Pairs of samples, lobe and map, in a progressive batch: many, as they are spread evenly within it, but not
+// so many that the least number of batches takes long on a large picture.
 constexpr uint32_t MIN_BATCH_SIZE = 64, MAX_BATCH_SIZE = 1024;
 constexpr double BATCH_SAMPLES = 1.6e7; // in all points together
-constexpr uint32_t LEAST_BATCHES = 8;    // below, their spread says too little
-constexpr double MAX_QUADRATURE = 1e9;   // points times texels: some seconds on two cores
+constexpr uint32_t LEAST_BATCHES = 8;   // below, their spread says too little
+constexpr double MAX_QUADRATURE = 1e9;  // points times texels: some seconds on two cores
 // llvmpipe ends any loop after 65535 rounds, without a word.
 constexpr uint32_t MAX_LOOP = 1u << 15;
-constexpr double DISPATCH_TEXELS = 1e8;  // points times texels in one dispatch: a GPU may not be held for long
+constexpr double DISPATCH_TEXELS = 1e8; // points times texels in one dispatch: a GPU may not be held for long
 constexpr float LEAST_TEXELS_ACROSS = 8; // roughness in texels below which a sum over texels misses the lobe
 
-const Reference& reference_of(const Plan& plan) { return std::get<Reference>(plan.settings.sampler); }
+const Reference& reference_of(const Plan& plan) {
+    return std::get<Reference>(plan.settings.sampler);
+}
 
 uint64_t texels_of(const Plan& plan) {
     uint64_t most = 0;
-    for (const MapSet& set : plan.map_sets) most = std::max<uint64_t>(most, 6ull * set.face_size * set.face_size);
+    for (const MapSet& set : plan.map_sets)
+        most = std::max<uint64_t>(most, 6ull * set.face_size * set.face_size);
     return most;
 }
 
@@ -34,13 +37,16 @@ bool prefers_quadrature(const Scene& scene, const Plan& plan, uint64_t points) {
     if (plan.has_varying || double(points) * double(texels_of(plan)) > MAX_QUADRATURE) return false;
     for (const MaterialInstance& instance : plan.instances)
         for (const KurtLobe& lobe : scene.materials[instance.material].lobes) {
-            const float across = float(plan.environments[instance.environment]->face_size()) * std::min(lobe.roughness.x, lobe.roughness.y);
+            const float across = float(plan.environments[instance.environment]->face_size()) *
+                                 std::min(lobe.roughness.x, lobe.roughness.y);
             if (across < LEAST_TEXELS_ACROSS) return false;
         }
     return true;
 }
 
-double luminance(glm::vec4 v) { return 0.2126 * v.r + 0.7152 * v.g + 0.0722 * v.b; }
+double luminance(glm::vec4 v) {
+    return 0.2126 * v.r + 0.7152 * v.g + 0.0722 * v.b;
+}
 
 /// Root mean square of the points' standard errors over the mean luminance.
 double relative_standard_error(const vulkan::Buffer& statistics, uint64_t points, uint32_t batches) {
@@ -60,16 +66,20 @@ double relative_standard_error(const vulkan::Buffer& statistics, uint64_t points
 
 } // namespace
 
-const vulkan::Buffer& Renderer::prepare_alias(const std::vector<std::shared_ptr<const Environment>>& environments) {
-    const bool is_same = std::equal(environments.begin(), environments.end(), alias_environments_.begin(), alias_environments_.end(),
+const vulkan::Buffer&
+Renderer::prepare_alias(const std::vector<std::shared_ptr<const Environment>>& environments) {
+    const bool is_same = std::equal(environments.begin(), environments.end(), alias_environments_.begin(),
+                                    alias_environments_.end(),
                                     [](const auto& one, const auto& other) { return one == other.lock(); });
     if (!is_same || alias_.size_bytes() == 0) {
         std::vector<shared::TexelAlias> tables;
         for (const auto& environment : environments) {
-            const std::vector<shared::TexelAlias> table = build_texel_alias({environment->face_size(), environment->radiance()});
+            const std::vector<shared::TexelAlias> table =
+                build_texel_alias({environment->face_size(), environment->radiance()});
             tables.insert(tables.end(), table.begin(), table.end());
         }
-        alias_ = vulkan::make_buffer(device_, std::as_bytes(std::span(tables)), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
+        alias_ = vulkan::make_buffer(device_, std::as_bytes(std::span(tables)),
+                                     VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
         alias_environments_.assign(environments.begin(), environments.end());
     }
     return alias_;
@@ -78,15 +88,17 @@ const vulkan::Buffer& Renderer::prepare_alias(const std::vector<std::shared_ptr<
 ReferenceBuffers Renderer::make_reference_buffers(const Scene& scene, const Plan& plan, uint64_t points) {
     ReferenceBuffers buffers;
     const Reference& settings = reference_of(plan);
-    buffers.is_quadrature = settings.method == ReferenceMethod::quadrature ||
-                            (settings.method == ReferenceMethod::automatic && prefers_quadrature(scene, plan, points));
-    buffers.statistics = vulkan::Buffer(device_, points * sizeof(glm::vec4), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
+    buffers.is_quadrature =
+        settings.method == ReferenceMethod::quadrature ||
+        (settings.method == ReferenceMethod::automatic && prefers_quadrature(scene, plan, points));
+    buffers.statistics =
+        vulkan::Buffer(device_, points * sizeof(glm::vec4), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
     if (!buffers.is_quadrature) buffers.alias = &prepare_alias(plan.environments);
     return buffers;
 }
 
-void Renderer::run_reference(const Plan& plan, const ShadePass& pass, const ReferenceBuffers& buffers, uint64_t points,
-                             const Progress& progress, Report& report) {
+void Renderer::run_reference(const Plan& plan, const ShadePass& pass, const ReferenceBuffers& buffers,
+                             uint64_t points, const Progress& progress, Report& report) {
     const Reference& settings = reference_of(plan);
     const auto run = [&](const shared::ShadeRecord& push) {
         vulkan::Commands commands(device_);
@@ -108,8 +120,10 @@ void Renderer::run_reference(const Plan& plan, const ShadePass& pass, const Refe
         }
         return;
     }
-    const uint32_t batch_size = std::clamp(uint32_t(std::min(BATCH_SAMPLES / double(points), double(settings.max_samples / (2 * LEAST_BATCHES)))),
-                                           MIN_BATCH_SIZE, MAX_BATCH_SIZE);
+    const uint32_t batch_size =
+        std::clamp(uint32_t(std::min(BATCH_SAMPLES / double(points),
+                                     double(settings.max_samples / (2 * LEAST_BATCHES)))),
+                   MIN_BATCH_SIZE, MAX_BATCH_SIZE);
     const uint32_t most = std::max(LEAST_BATCHES, settings.max_samples / (2 * batch_size));
     uint32_t batches = 0;
     double error = 1.0;
@@ -123,13 +137,15 @@ void Renderer::run_reference(const Plan& plan, const ShadePass& pass, const Refe
         }
         // The error falls with the root of the batches.
         const double needed = double(batches) * std::max(1.0, std::pow(error / settings.standard_error, 2.0));
-        if (progress) progress(batches >= LEAST_BATCHES ? std::min(1.0, batches / needed) : 0.0, "reference batches");
+        if (progress)
+            progress(batches >= LEAST_BATCHES ? std::min(1.0, batches / needed) : 0.0, "reference batches");
     }
     report.standard_error = error;
     report.reference_samples = batches * 2 * batch_size;
     if (error > settings.standard_error)
-        report.warnings.push_back(message("the reference stopped at ", report.reference_samples, " samples a pixel with a standard error of ",
-                                          error, ", not ", settings.standard_error));
+        report.warnings.push_back(message("the reference stopped at ", report.reference_samples,
+                                          " samples a pixel with a standard error of ", error, ", not ",
+                                          settings.standard_error));
 }
 
 } // namespace burnish::render

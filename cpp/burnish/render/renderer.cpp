@@ -30,7 +30,9 @@ std::vector<T> read_buffer(const vulkan::Buffer& buffer, size_t count) {
     return result;
 }
 
-uint64_t read_non_finite(const vulkan::Buffer& counters) { return read_buffer<shared::Counters>(counters, 1)[0].non_finite; }
+uint64_t read_non_finite(const vulkan::Buffer& counters) {
+    return read_buffer<shared::Counters>(counters, 1)[0].non_finite;
+}
 
 /// Depth and packed normals, copied before later pictures of the same frame overwrite them.
 void read_surface(FrameTargets& targets, Frame& frame) {
@@ -45,19 +47,25 @@ void read_surface(FrameTargets& targets, Frame& frame) {
 Renderer::Renderer(std::shared_ptr<vulkan::Device> device)
     : device_(std::move(device)), pipelines_(device_), pyramid_(device_) {}
 
-std::vector<std::shared_ptr<EnvironmentMaps>> Renderer::prepare_maps(const Plan& plan, std::vector<vulkan::PassTime>& times) {
+std::vector<std::shared_ptr<EnvironmentMaps>> Renderer::prepare_maps(const Plan& plan,
+                                                                     std::vector<vulkan::PassTime>& times) {
     std::erase_if(maps_, [](const CachedMaps& cached) {
-        return std::any_of(cached.environments.begin(), cached.environments.end(), [](const auto& one) { return one.expired(); });
+        return std::any_of(cached.environments.begin(), cached.environments.end(),
+                           [](const auto& one) { return one.expired(); });
     });
-    const bool has_pyramid = std::any_of(plan.passes.begin(), plan.passes.end(), [](const PassLine& line) { return line.name == "pyramid"; });
-    const std::optional<PyramidFilter> filter = has_pyramid ? std::optional(plan.settings.filter) : std::nullopt;
+    const bool has_pyramid = std::any_of(plan.passes.begin(), plan.passes.end(),
+                                         [](const PassLine& line) { return line.name == "pyramid"; });
+    const std::optional<PyramidFilter> filter =
+        has_pyramid ? std::optional(plan.settings.filter) : std::nullopt;
     std::vector<std::shared_ptr<EnvironmentMaps>> result;
     for (const MapSet& set : plan.map_sets) {
         std::vector<std::shared_ptr<const Environment>> environments;
-        for (const uint32_t k : set.environments) environments.push_back(plan.environments[k]);
+        for (const uint32_t k : set.environments)
+            environments.push_back(plan.environments[k]);
         const auto found = std::find_if(maps_.begin(), maps_.end(), [&](const CachedMaps& cached) {
             return (cached.filter == filter || !filter) &&
-                   std::equal(cached.environments.begin(), cached.environments.end(), environments.begin(), environments.end(),
+                   std::equal(cached.environments.begin(), cached.environments.end(), environments.begin(),
+                              environments.end(),
                               [](const auto& one, const auto& other) { return one.lock() == other; });
         });
         if (found != maps_.end()) {
@@ -83,8 +91,9 @@ GpuScene& Renderer::prepare_scene(const Scene& scene) {
     // Objects and materials may change without the meshes: their indices are checked each time.
     for (const Object& object : scene.objects)
         if (object.mesh >= scene.meshes.size() || object.material >= scene.materials.size())
-            throw std::invalid_argument(message("object \"", object.name, "\": expected a mesh below ", scene.meshes.size(),
-                                                " and a material below ", scene.materials.size(), ", got ", object.mesh, " and ",
+            throw std::invalid_argument(message("object \"", object.name, "\": expected a mesh below ",
+                                                scene.meshes.size(), " and a material below ",
+                                                scene.materials.size(), ", got ", object.mesh, " and ",
                                                 object.material));
     return *scene_;
 }
@@ -92,8 +101,8 @@ GpuScene& Renderer::prepare_scene(const Scene& scene) {
 FrameTargets& Renderer::prepare_targets(const Plan& plan, uint32_t width, uint32_t height) {
     const uint32_t classes = uint32_t(plan.classes.size()) + 1;
     const bool has_sum = plan.settings.spp > 1;
-    if (!targets_ || targets_->width != width || targets_->height != height || targets_->has_varying != plan.has_varying ||
-        targets_classes_ < classes || targets_sum_ != has_sum) {
+    if (!targets_ || targets_->width != width || targets_->height != height ||
+        targets_->has_varying != plan.has_varying || targets_classes_ < classes || targets_sum_ != has_sum) {
         targets_.reset();
         targets_ = std::make_unique<FrameTargets>(device_, width, height, plan.has_varying, has_sum, classes);
         targets_classes_ = classes;
@@ -114,14 +123,17 @@ Report Renderer::start_report(const Scene& scene, const Plan& plan, const ShadeT
     report.warnings = plan.warnings;
     for (size_t k = 0; k < plan.classes.size(); ++k) {
         const ShadeClass& one = plan.classes[k];
-        report.classes.push_back({effect_names(one.traits), table_name(one.traits.table), tables.samples_used[k], one.reason});
+        report.classes.push_back(
+            {effect_names(one.traits), table_name(one.traits.table), tables.samples_used[k], one.reason});
     }
     report.warnings.insert(report.warnings.end(), scene.warnings.begin(), scene.warnings.end());
     report.ignored_extensions = scene.ignored_extensions;
     for (const auto& environment : plan.environments) {
         const std::string sentence = environment->texel_report().sentence();
-        if (!sentence.empty()) report.warnings.push_back("environment " + environment->name + ": " + sentence);
-        for (const std::string& note : environment->notes) report.warnings.push_back("environment " + environment->name + ": " + note);
+        if (!sentence.empty())
+            report.warnings.push_back("environment " + environment->name + ": " + sentence);
+        for (const std::string& note : environment->notes)
+            report.warnings.push_back("environment " + environment->name + ": " + note);
     }
     return report;
 }
@@ -130,7 +142,8 @@ Frame Renderer::render(const Scene& scene, const Camera& camera, const RenderSet
     const std::lock_guard lock(mutex_);
     const Stopwatch wall;
     if (settings.width < 1 || settings.height < 1 || settings.width > 16384 || settings.height > 16384)
-        throw std::invalid_argument(message("size: expected 1..16384 pixels each way, got ", settings.height, " x ", settings.width));
+        throw std::invalid_argument(
+            message("size: expected 1..16384 pixels each way, got ", settings.height, " x ", settings.width));
     pipelines_.take_compile_ms();
     GpuScene& gpu_scene = prepare_scene(scene);
     const Plan plan = make_plan(scene, settings.plan);
@@ -161,13 +174,15 @@ Frame Renderer::render(const Scene& scene, const Camera& camera, const RenderSet
     if (spp > 1) {
         accumulate = &pipelines_.compute("resolve/accumulate.comp");
         accumulate_set = vulkan::DescriptorSet(*accumulate);
-        accumulate_set.bind(shared::BINDING_ACCUMULATE_SAMPLE, targets.radiance).bind(shared::BINDING_ACCUMULATE_SUM, targets.sum);
+        accumulate_set.bind(shared::BINDING_ACCUMULATE_SAMPLE, targets.radiance)
+            .bind(shared::BINDING_ACCUMULATE_SUM, targets.sum);
     }
     const auto record_accumulate = [&](vulkan::Commands& commands, uint32_t picture) {
         const shared::AccumulateRecord push{uint32_t(pixels), picture == 0 ? 1u : 0u, 1.0f / float(spp), 0};
         const uint32_t groups = uint32_t((pixels + 63) / 64);
         commands.begin_pass("accumulate");
-        commands.dispatch(*accumulate, accumulate_set, vulkan::push_bytes(push), std::min(groups, shared::GROUPS_PER_ROW),
+        commands.dispatch(*accumulate, accumulate_set, vulkan::push_bytes(push),
+                          std::min(groups, shared::GROUPS_PER_ROW),
                           (groups + shared::GROUPS_PER_ROW - 1) / shared::GROUPS_PER_ROW);
         commands.end_pass();
     };
@@ -175,7 +190,8 @@ Frame Renderer::render(const Scene& scene, const Camera& camera, const RenderSet
     frame.report.prepare_ms = wall.milliseconds() - frame.report.compile_ms;
 
     for (uint32_t picture = 0; picture < spp; ++picture) {
-        shared::ViewRecord view = make_view(camera, settings.width, settings.height, filter_offset(picture, spp));
+        shared::ViewRecord view =
+            make_view(camera, settings.width, settings.height, filter_offset(picture, spp));
         view.background_map = 0;
         vulkan::upload(targets.view, std::span<const shared::ViewRecord>(&view, 1));
         vulkan::Commands commands(device_);
@@ -207,22 +223,26 @@ Frame Renderer::render(const Scene& scene, const Camera& camera, const RenderSet
     times.insert(times.end(), frame.report.passes.begin(), frame.report.passes.end());
     frame.report.passes = std::move(times);
     if (frame.report.non_finite)
-        frame.report.warnings.push_back(message(frame.report.non_finite, " values were not finite and became black"));
+        frame.report.warnings.push_back(
+            message(frame.report.non_finite, " values were not finite and became black"));
     frame.report.wall_ms = wall.milliseconds();
     return frame;
 }
 
-std::vector<glm::vec3> Renderer::shade(const std::shared_ptr<const Environment>& environment, const Material& material,
-                                       const ShadePoints& points, const PlanSettings& settings, Report* report) {
+std::vector<glm::vec3> Renderer::shade(const std::shared_ptr<const Environment>& environment,
+                                       const Material& material, const ShadePoints& points,
+                                       const PlanSettings& settings, Report* report) {
     const std::lock_guard lock(mutex_);
     const Stopwatch wall;
     const size_t count = points.normals.size();
     if (points.tangents.size() != count || points.views.size() != count)
-        throw std::invalid_argument(message("tangents, views: expected as many as normals, ", count, ", got ", points.tangents.size(),
-                                            " and ", points.views.size()));
+        throw std::invalid_argument(message("tangents, views: expected as many as normals, ", count, ", got ",
+                                            points.tangents.size(), " and ", points.views.size()));
     if (count == 0) return {};
     if (count > 0xffffffffu / sizeof(shared::SurfacePoint))
-        throw std::invalid_argument(message("normals: expected at most ", 0xffffffffu / sizeof(shared::SurfacePoint), " points, got ", count));
+        throw std::invalid_argument(message("normals: expected at most ",
+                                            0xffffffffu / sizeof(shared::SurfacePoint), " points, got ",
+                                            count));
     pipelines_.take_compile_ms();
     Scene scene;
     scene.environment = environment;
@@ -236,14 +256,17 @@ std::vector<glm::vec3> Renderer::shade(const std::shared_ptr<const Environment>&
 
     std::vector<shared::SurfacePoint> records(count);
     for (size_t k = 0; k < count; ++k)
-        records[k] = {glm::vec4(points.normals[k], 0.0f), glm::vec4(points.tangents[k], 1.0f), glm::vec4(glm::normalize(points.views[k]), 0.0f)};
+        records[k] = {glm::vec4(points.normals[k], 0.0f), glm::vec4(points.tangents[k], 1.0f),
+                      glm::vec4(glm::normalize(points.views[k]), 0.0f)};
     const VkBufferUsageFlags storage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT;
-    const vulkan::Buffer point_buffer = vulkan::make_buffer(device_, std::as_bytes(std::span(records)), storage);
+    const vulkan::Buffer point_buffer =
+        vulkan::make_buffer(device_, std::as_bytes(std::span(records)), storage);
     const vulkan::Buffer radiance(device_, count * sizeof(glm::vec4), storage);
     const shared::Counters zero{};
     const vulkan::Buffer counters = vulkan::make_buffer(device_, std::as_bytes(std::span(&zero, 1)), storage);
     std::optional<ReferenceBuffers> reference;
-    if (std::holds_alternative<Reference>(plan.settings.sampler)) reference = make_reference_buffers(scene, plan, count);
+    if (std::holds_alternative<Reference>(plan.settings.sampler))
+        reference = make_reference_buffers(scene, plan, count);
     const ShadeInputs inputs{nullptr, &point_buffer, uint32_t(count), &radiance, &counters};
     const ShadePass shade(pipelines_, plan, tables, maps, inputs, reference ? &*reference : nullptr);
     Report local = start_report(scene, plan, tables);
@@ -265,7 +288,8 @@ std::vector<glm::vec3> Renderer::shade(const std::shared_ptr<const Environment>&
     return {result.begin(), result.end()};
 }
 
-std::vector<std::vector<float>> Renderer::pyramid(const std::shared_ptr<const Environment>& environment, PyramidFilter filter,
+std::vector<std::vector<float>> Renderer::pyramid(const std::shared_ptr<const Environment>& environment,
+                                                  PyramidFilter filter,
                                                   std::vector<vulkan::PassTime>* times) {
     const std::lock_guard lock(mutex_);
     EnvironmentMaps maps(device_, pyramid_, std::span(&environment, 1), filter);

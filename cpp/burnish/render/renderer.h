@@ -30,33 +30,38 @@ struct RenderSettings {
 
 /// Points to shade from outside, `count` each.
 struct ShadePoints {
-    std::span<const glm::vec3> normals;  ///< unit
-    std::span<const glm::vec3> tangents; ///< not parallel to the normal, else a frame of the engine's choice is used
-    std::span<const glm::vec3> views;    ///< toward the eye; normalised here
+    std::span<const glm::vec3> normals; ///< unit
+    std::span<const glm::vec3>
+        tangents; ///< not parallel to the normal, else a frame of the engine's choice is used
+    std::span<const glm::vec3> views; ///< toward the eye; normalised here
 };
 
-/// Keeps what later frames can use again: pipelines, scenes, maps, tables. One call at a time; calls from several threads wait
-/// for each other.
+/// Keeps what later frames can use again: pipelines, scenes, maps, tables. One call at a time; calls from
+/// several threads wait for each other.
 class Renderer {
 public:
     explicit Renderer(std::shared_ptr<vulkan::Device> device);
 
     const std::shared_ptr<vulkan::Device>& device() const { return device_; }
 
-    /// Throws std::invalid_argument for a scene or settings that make no sense, VulkanError if the device fails.
+    /// Throws std::invalid_argument for a scene or settings that make no sense, VulkanError if the device
+    /// fails.
     Frame render(const Scene& scene, const Camera& camera, const RenderSettings& settings);
 
     /// Linear radiance at each point; `report` gets what it cost.
-    std::vector<glm::vec3> shade(const std::shared_ptr<const Environment>& environment, const Material& material,
-                                 const ShadePoints& points, const PlanSettings& settings, Report* report = nullptr);
+    std::vector<glm::vec3> shade(const std::shared_ptr<const Environment>& environment,
+                                 const Material& material, const ShadePoints& points,
+                                 const PlanSettings& settings, Report* report = nullptr);
 
     /// All levels of the map as the lookups see them: 6 n n 3 floats each.
-    std::vector<std::vector<float>> pyramid(const std::shared_ptr<const Environment>& environment, PyramidFilter filter,
+    std::vector<std::vector<float>> pyramid(const std::shared_ptr<const Environment>& environment,
+                                            PyramidFilter filter,
                                             std::vector<vulkan::PassTime>* times = nullptr);
 
-    /// Milliseconds of a 1080p pass that makes the lookups of one lobe and nothing else, `repeats` times; for benchmarks.
-    std::vector<double> time_lookups(const std::shared_ptr<const Environment>& environment, const Regular& sampler, float roughness,
-                                     uint32_t repeats);
+    /// Milliseconds of a 1080p pass that makes the lookups of one lobe and nothing else, `repeats` times; for
+    /// benchmarks.
+    std::vector<double> time_lookups(const std::shared_ptr<const Environment>& environment,
+                                     const Regular& sampler, float roughness, uint32_t repeats);
 
 private:
     struct CachedMaps {
@@ -65,14 +70,15 @@ private:
         std::shared_ptr<EnvironmentMaps> maps;
     };
 
-    std::vector<std::shared_ptr<EnvironmentMaps>> prepare_maps(const Plan& plan, std::vector<vulkan::PassTime>& times);
+    std::vector<std::shared_ptr<EnvironmentMaps>> prepare_maps(const Plan& plan,
+                                                               std::vector<vulkan::PassTime>& times);
     GpuScene& prepare_scene(const Scene& scene);
     const vulkan::Buffer& prepare_alias(const std::vector<std::shared_ptr<const Environment>>& environments);
     FrameTargets& prepare_targets(const Plan& plan, uint32_t width, uint32_t height);
     ReferenceBuffers make_reference_buffers(const Scene& scene, const Plan& plan, uint64_t points);
     /// Runs batches until the wanted error is reached; fills error, samples and warnings of the report.
-    void run_reference(const Plan& plan, const ShadePass& pass, const ReferenceBuffers& buffers, uint64_t points, const Progress& progress,
-                       Report& report);
+    void run_reference(const Plan& plan, const ShadePass& pass, const ReferenceBuffers& buffers,
+                       uint64_t points, const Progress& progress, Report& report);
     Report start_report(const Scene& scene, const Plan& plan, const ShadeTables& tables) const;
 
     std::shared_ptr<vulkan::Device> device_;

@@ -10,20 +10,26 @@ namespace {
 
 uint32_t form_of(AlphaForm form) {
     switch (form) {
-    case AlphaForm::zero: return shared::ALPHA_ZERO;
-    case AlphaForm::half: return shared::ALPHA_HALF;
-    case AlphaForm::general: return shared::ALPHA_GENERAL;
+    case AlphaForm::zero:
+        return shared::ALPHA_ZERO;
+    case AlphaForm::half:
+        return shared::ALPHA_HALF;
+    case AlphaForm::general:
+        return shared::ALPHA_GENERAL;
     }
     return shared::ALPHA_GENERAL;
 }
 
 uint32_t table_of(TableForm form, const Sampler& sampler) {
     switch (form) {
-    case TableForm::constant: return shared::TABLE_CONSTANT;
+    case TableForm::constant:
+        return shared::TABLE_CONSTANT;
     case TableForm::scaled:
-        return std::holds_alternative<Regular>(sampler) ? shared::TABLE_SCALED_REGULAR : shared::TABLE_SCALED_IMPORTANCE;
+        return std::holds_alternative<Regular>(sampler) ? shared::TABLE_SCALED_REGULAR
+                                                        : shared::TABLE_SCALED_IMPORTANCE;
     case TableForm::none:
-    case TableForm::buffer: return shared::TABLE_BUFFER;
+    case TableForm::buffer:
+        return shared::TABLE_BUFFER;
     }
     return shared::TABLE_BUFFER;
 }
@@ -33,10 +39,12 @@ uint32_t normalization_of(const Sampler& sampler, TableForm form) {
     if (!regular) return shared::NORMALIZATION_CONSTANT;
     if (regular->normalization == Normalization::furnace) return shared::NORMALIZATION_FURNACE;
     if (form != TableForm::scaled) return shared::NORMALIZATION_CONSTANT;
-    return regular->normalization == Normalization::published ? shared::NORMALIZATION_PUBLISHED : shared::NORMALIZATION_PROJECTED;
+    return regular->normalization == Normalization::published ? shared::NORMALIZATION_PUBLISHED
+                                                              : shared::NORMALIZATION_PROJECTED;
 }
 
-vulkan::SpecializationConstants common_constants(const ShadeTraits& traits, uint32_t shade_class, bool is_points) {
+vulkan::SpecializationConstants common_constants(const ShadeTraits& traits, uint32_t shade_class,
+                                                 bool is_points) {
     vulkan::SpecializationConstants constants;
     constants.set(shared::SPEC_SOURCE, is_points ? shared::SOURCE_POINTS : shared::SOURCE_PIXELS)
         .set(shared::SPEC_LOBE_COUNT, traits.lobe_count)
@@ -51,8 +59,8 @@ vulkan::SpecializationConstants common_constants(const ShadeTraits& traits, uint
     return constants;
 }
 
-void add_pattern_constants(vulkan::SpecializationConstants& constants, const ShadeTraits& traits, const PlanSettings& settings,
-                           const SampleTable& table) {
+void add_pattern_constants(vulkan::SpecializationConstants& constants, const ShadeTraits& traits,
+                           const PlanSettings& settings, const SampleTable& table) {
     const Sampler& sampler = settings.sampler;
     const auto* regular = std::get_if<Regular>(&sampler);
     const bool is_published = regular && regular->footprint == Footprint::published;
@@ -65,7 +73,8 @@ void add_pattern_constants(vulkan::SpecializationConstants& constants, const Sha
     if (traits.table != TableForm::constant) return;
     constants.set(shared::SPEC_SAMPLE_COUNT, uint32_t(table.entries.size()));
     for (uint32_t k = 0; k < table.entries.size(); ++k)
-        for (uint32_t c = 0; c < 4; ++c) constants.set(shared::SPEC_SAMPLES + 4 * k + c, table.entries[k][int(c)]);
+        for (uint32_t c = 0; c < 4; ++c)
+            constants.set(shared::SPEC_SAMPLES + 4 * k + c, table.entries[k][int(c)]);
 }
 
 vulkan::Image one_texel(const vulkan::DevicePointer& device, VkFormat format) {
@@ -82,7 +91,8 @@ vulkan::Image one_texel(const vulkan::DevicePointer& device, VkFormat format) {
 } // namespace
 
 ShadePass::ShadePass(Pipelines& pipelines, const Plan& plan, const ShadeTables& tables,
-                     const std::vector<std::shared_ptr<EnvironmentMaps>>& maps, const ShadeInputs& inputs, const ReferenceBuffers* reference)
+                     const std::vector<std::shared_ptr<EnvironmentMaps>>& maps, const ShadeInputs& inputs,
+                     const ReferenceBuffers* reference)
     : tables_(tables), maps_(maps), inputs_(inputs), sampler_(pipelines.device(), {}) {
     const vulkan::DevicePointer& device = pipelines.device();
     unused_buffer_ = vulkan::Buffer(device, 256, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
@@ -114,17 +124,20 @@ ShadePass::ShadePass(Pipelines& pipelines, const Plan& plan, const ShadeTables& 
     if (plan.has_background) {
         vulkan::SpecializationConstants constants;
         const bool is_turned = plan.environments[0]->rotation != glm::mat3(1.0f);
-        constants.set(shared::SPEC_SHADE_CLASS, background_class).set(shared::SPEC_HAS_MAP_ROTATION, is_turned);
+        constants.set(shared::SPEC_SHADE_CLASS, background_class)
+            .set(shared::SPEC_HAS_MAP_ROTATION, is_turned);
         uint32_t map_set = 0;
         for (uint32_t k = 0; k < plan.map_sets.size(); ++k)
             if (plan.map_sets[k].face_size == plan.environments[0]->face_size()) map_set = k;
-        background_.push_back(make_stage(pipelines, "shade/background.comp", constants, background_class, map_set, nullptr));
+        background_.push_back(
+            make_stage(pipelines, "shade/background.comp", constants, background_class, map_set, nullptr));
         background_.back().name = "background";
     }
 }
 
-ShadePass::Stage ShadePass::make_stage(Pipelines& pipelines, const std::string& shader, const vulkan::SpecializationConstants& constants,
-                                       uint32_t shade_class, uint32_t map_set, const ReferenceBuffers* reference) {
+ShadePass::Stage ShadePass::make_stage(Pipelines& pipelines, const std::string& shader,
+                                       const vulkan::SpecializationConstants& constants, uint32_t shade_class,
+                                       uint32_t map_set, const ReferenceBuffers* reference) {
     const vulkan::ComputePipeline& pipeline = pipelines.compute(shader, constants);
     Stage stage{shader, &pipeline, vulkan::DescriptorSet(pipeline), shade_class};
     const auto bind = [&](uint32_t binding, const vulkan::Buffer& buffer) {
@@ -146,9 +159,11 @@ ShadePass::Stage ShadePass::make_stage(Pipelines& pipelines, const std::string& 
     bind(shared::BINDING_COUNTERS, *inputs_.counters);
     bind(shared::BINDING_STATISTICS, reference ? reference->statistics : unused_buffer_);
     bind(shared::BINDING_TEXEL_ALIAS, reference && reference->alias ? *reference->alias : unused_buffer_);
-    if (stage.set.has_binding(shared::BINDING_SAMPLE_TABLE)) stage.set.bind_texel_buffer(shared::BINDING_SAMPLE_TABLE, tables_.samples_view);
+    if (stage.set.has_binding(shared::BINDING_SAMPLE_TABLE))
+        stage.set.bind_texel_buffer(shared::BINDING_SAMPLE_TABLE, tables_.samples_view);
     if (stage.set.has_binding(shared::BINDING_MAPS))
-        stage.set.bind(shared::BINDING_MAPS, maps_[map_set]->image().view_as(VK_IMAGE_VIEW_TYPE_CUBE_ARRAY), sampler_);
+        stage.set.bind(shared::BINDING_MAPS, maps_[map_set]->image().view_as(VK_IMAGE_VIEW_TYPE_CUBE_ARRAY),
+                       sampler_);
     const bool has_varying = targets && targets->has_varying;
     bind_image(shared::BINDING_SURFACE, targets ? targets->surface : unused_surface_);
     bind_image(shared::BINDING_VARYING_DIFFUSE, has_varying ? targets->varying_diffuse : unused_varying_);
@@ -161,13 +176,15 @@ ShadePass::Stage ShadePass::make_stage(Pipelines& pipelines, const std::string& 
 void ShadePass::dispatch(vulkan::Commands& commands, const Stage& stage, shared::ShadeRecord push) const {
     if (inputs_.targets) {
         push.tile_capacity = inputs_.targets->tile_capacity;
-        commands.dispatch_indirect(*stage.pipeline, stage.set, vulkan::push_bytes(push), inputs_.targets->tile_counts,
-                                   stage.shade_class * sizeof(glm::uvec4));
+        commands.dispatch_indirect(*stage.pipeline, stage.set, vulkan::push_bytes(push),
+                                   inputs_.targets->tile_counts, stage.shade_class * sizeof(glm::uvec4));
         return;
     }
     push.point_count = inputs_.point_count;
-    const uint32_t groups = (inputs_.point_count + shared::TILE_SIZE * shared::TILE_SIZE - 1) / (shared::TILE_SIZE * shared::TILE_SIZE);
-    commands.dispatch(*stage.pipeline, stage.set, vulkan::push_bytes(push), std::min(groups, shared::GROUPS_PER_ROW),
+    const uint32_t groups = (inputs_.point_count + shared::TILE_SIZE * shared::TILE_SIZE - 1) /
+                            (shared::TILE_SIZE * shared::TILE_SIZE);
+    commands.dispatch(*stage.pipeline, stage.set, vulkan::push_bytes(push),
+                      std::min(groups, shared::GROUPS_PER_ROW),
                       (groups + shared::GROUPS_PER_ROW - 1) / shared::GROUPS_PER_ROW);
 }
 
@@ -177,12 +194,14 @@ void ShadePass::record_tiles(vulkan::Commands& commands) const {
     commands.fill_buffer(targets.tile_counts, 0);
     commands.transition(targets.surface, VK_IMAGE_LAYOUT_GENERAL);
     if (targets.has_varying)
-        for (vulkan::Image* image : {&targets.varying_diffuse, &targets.varying_specular, &targets.varying_emissive, &targets.varying_coat})
+        for (vulkan::Image* image : {&targets.varying_diffuse, &targets.varying_specular,
+                                     &targets.varying_emissive, &targets.varying_coat})
             commands.transition(*image, VK_IMAGE_LAYOUT_GENERAL);
     commands.barrier();
     shared::ShadeRecord push{};
     push.tile_capacity = targets.tile_capacity;
-    commands.dispatch(*tile_stages_[0].pipeline, tile_stages_[0].set, vulkan::push_bytes(push), (targets.tile_capacity + 63) / 64);
+    commands.dispatch(*tile_stages_[0].pipeline, tile_stages_[0].set, vulkan::push_bytes(push),
+                      (targets.tile_capacity + 63) / 64);
     commands.barrier();
     commands.dispatch(*tile_stages_[1].pipeline, tile_stages_[1].set, {}, 1);
     commands.end_pass();

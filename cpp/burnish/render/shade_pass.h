@@ -1,4 +1,5 @@
-// Shades surface points: pixels of a G-buffer, or a list of points. One specialised pipeline for each class of the plan.
+// Shades surface points: pixels of a G-buffer, or a list of points. One specialised pipeline for each class
+// of the plan.
 #pragma once
 
 #include <functional>
@@ -24,16 +25,18 @@ struct ShadeInputs {
 
 /// Buffers that only a reference needs.
 struct ReferenceBuffers {
-    vulkan::Buffer statistics;              ///< vec4 a pixel or point
-    const vulkan::Buffer* alias = nullptr;  ///< TexelAlias tables of all maps, one after the other; progressive only
+    vulkan::Buffer statistics; ///< vec4 a pixel or point
+    const vulkan::Buffer* alias =
+        nullptr; ///< TexelAlias tables of all maps, one after the other; progressive only
     bool is_quadrature = false;
 };
 
 class ShadePass {
 public:
     /// `maps`: one for each map set of the plan.
-    ShadePass(Pipelines& pipelines, const Plan& plan, const ShadeTables& tables, const std::vector<std::shared_ptr<EnvironmentMaps>>& maps,
-              const ShadeInputs& inputs, const ReferenceBuffers* reference);
+    ShadePass(Pipelines& pipelines, const Plan& plan, const ShadeTables& tables,
+              const std::vector<std::shared_ptr<EnvironmentMaps>>& maps, const ShadeInputs& inputs,
+              const ReferenceBuffers* reference);
 
     /// Lists the tiles of every class; pixels only.
     void record_tiles(vulkan::Commands& commands) const;
@@ -49,8 +52,9 @@ private:
         uint32_t shade_class;
     };
 
-    Stage make_stage(Pipelines& pipelines, const std::string& shader, const vulkan::SpecializationConstants& constants, uint32_t shade_class,
-                     uint32_t map_set, const ReferenceBuffers* reference);
+    Stage make_stage(Pipelines& pipelines, const std::string& shader,
+                     const vulkan::SpecializationConstants& constants, uint32_t shade_class, uint32_t map_set,
+                     const ReferenceBuffers* reference);
     void dispatch(vulkan::Commands& commands, const Stage& stage, shared::ShadeRecord push) const;
 
     const ShadeTables& tables_;

@@ -14,7 +14,8 @@ namespace {
 
 SampleTable build_table(const Sampler& sampler, TableForm form, glm::vec2 roughness, uint32_t face_size) {
     const auto build = [&](const auto& kind) {
-        return form == TableForm::scaled ? build_scaled_table(kind, face_size) : build_sample_table(kind, roughness, face_size);
+        return form == TableForm::scaled ? build_scaled_table(kind, face_size)
+                                         : build_sample_table(kind, roughness, face_size);
     };
     if (const auto* regular = std::get_if<Regular>(&sampler)) return build(*regular);
     if (const auto* importance = std::get_if<Importance>(&sampler)) return build(*importance);
@@ -40,19 +41,24 @@ public:
         auto found = ranges_.find(key);
         if (found == ranges_.end()) {
             const SampleTable table = build_table(plan_.settings.sampler, form, roughness, face_size);
-            found = ranges_.emplace(key, Range{uint32_t(sample_entries.size()), uint32_t(table.entries.size())}).first;
+            found =
+                ranges_.emplace(key, Range{uint32_t(sample_entries.size()), uint32_t(table.entries.size())})
+                    .first;
             sample_entries.insert(sample_entries.end(), table.entries.begin(), table.entries.end());
-            while (sample_entries.size() % 4) sample_entries.emplace_back(0.0f); // the kernel reads whole phases
+            while (sample_entries.size() % 4)
+                sample_entries.emplace_back(0.0f); // the kernel reads whole phases
         }
         return found->second;
     }
 
     /// First entry and azimuth nodes of the albedo table of a lobe.
     Range albedo(bool is_varying, glm::vec2 roughness, float alpha) {
-        const std::array<float, 3> key = is_varying ? std::array{0.0f, 0.0f, alpha} : std::array{roughness.x, roughness.y, alpha};
+        const std::array<float, 3> key =
+            is_varying ? std::array{0.0f, 0.0f, alpha} : std::array{roughness.x, roughness.y, alpha};
         auto found = albedo_ranges_.find(key);
         if (found == albedo_ranges_.end()) {
-            const std::vector<glm::vec2>& table = is_varying ? cache_.varying_albedo(alpha) : cache_.albedo(roughness, alpha).entries;
+            const std::vector<glm::vec2>& table =
+                is_varying ? cache_.varying_albedo(alpha) : cache_.albedo(roughness, alpha).entries;
             const uint32_t nodes = is_varying ? 1 : cache_.albedo(roughness, alpha).width_nodes;
             found = albedo_ranges_.emplace(key, Range{uint32_t(albedo_entries.size()), nodes}).first;
             albedo_entries.insert(albedo_entries.end(), table.begin(), table.end());
@@ -84,17 +90,20 @@ shared::LobeRecord lobe_record(const KurtLobe& lobe) {
 
 /// The coat's weight is read from its texture, so the record holds the lobe of weight one.
 KurtLobe lobe_of(const Material& material, uint32_t which, const ShadeTraits& traits) {
-    KurtLobe lobe = which < material.lobes.size() ? material.lobes[which] : KurtLobe{.weight = glm::vec3(0.0f)};
+    KurtLobe lobe =
+        which < material.lobes.size() ? material.lobes[which] : KurtLobe{.weight = glm::vec3(0.0f)};
     if (traits.has_coat && which == 1) lobe.weight = glm::vec3(1.0f);
     return lobe;
 }
 
-shared::MapRecord map_record(const Environment& environment, uint32_t layer, const IrradianceCoefficients& irradiance) {
+shared::MapRecord map_record(const Environment& environment, uint32_t layer,
+                             const IrradianceCoefficients& irradiance) {
     shared::MapRecord record{};
     record.env_from_world_x = glm::vec4(environment.rotation[0], 0.0f);
     record.env_from_world_y = glm::vec4(environment.rotation[1], 0.0f);
     record.env_from_world_z = glm::vec4(environment.rotation[2], 0.0f);
-    for (size_t k = 0; k < irradiance.size(); ++k) record.irradiance[k] = glm::vec4(irradiance[k], 0.0);
+    for (size_t k = 0; k < irradiance.size(); ++k)
+        record.irradiance[k] = glm::vec4(irradiance[k], 0.0);
     record.radiance_scale = std::exp2(environment.exposure);
     record.layer = layer;
     record.face_size = environment.face_size();
@@ -102,9 +111,11 @@ shared::MapRecord map_record(const Environment& environment, uint32_t layer, con
 }
 
 template <typename T>
-vulkan::Buffer storage(const vulkan::DevicePointer& device, std::vector<T>& entries, VkBufferUsageFlags usage = 0) {
+vulkan::Buffer storage(const vulkan::DevicePointer& device, std::vector<T>& entries,
+                       VkBufferUsageFlags usage = 0) {
     if (entries.empty()) entries.emplace_back(); // a binding must have something behind it
-    return vulkan::make_buffer(device, std::as_bytes(std::span(entries)), usage | VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
+    return vulkan::make_buffer(device, std::as_bytes(std::span(entries)),
+                               usage | VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
 }
 
 } // namespace
@@ -121,7 +132,8 @@ const std::vector<glm::vec2>& TableCache::varying_albedo(float alpha) {
     if (found != varying_albedo_.end()) return found->second;
     std::vector<glm::vec2> rows;
     for (uint32_t k = 0; k < shared::ALBEDO_ROUGHNESS_NODES; ++k) {
-        const float m = std::pow(shared::ALBEDO_LEAST_ROUGHNESS, 1.0f - float(k) / (shared::ALBEDO_ROUGHNESS_NODES - 1));
+        const float m =
+            std::pow(shared::ALBEDO_LEAST_ROUGHNESS, 1.0f - float(k) / (shared::ALBEDO_ROUGHNESS_NODES - 1));
         const AlbedoTable row = build_albedo_table(glm::vec2(m), alpha);
         rows.insert(rows.end(), row.entries.begin(), row.entries.end());
     }
@@ -132,11 +144,17 @@ const IrradianceCoefficients& TableCache::irradiance(const std::shared_ptr<const
     std::erase_if(irradiance_, [](const auto& entry) { return entry.second.environment.expired(); });
     auto found = irradiance_.find(environment.get());
     if (found == irradiance_.end())
-        found = irradiance_.emplace(environment.get(), Irradiance{environment, irradiance_over_pi_coefficients({environment->face_size(), environment->radiance()})}).first;
+        found =
+            irradiance_
+                .emplace(environment.get(),
+                         Irradiance{environment, irradiance_over_pi_coefficients(
+                                                     {environment->face_size(), environment->radiance()})})
+                .first;
     return found->second.coefficients;
 }
 
-ShadeTables make_shade_tables(const vulkan::DevicePointer& device, const Scene& scene, const Plan& plan, TableCache& cache) {
+ShadeTables make_shade_tables(const vulkan::DevicePointer& device, const Scene& scene, const Plan& plan,
+                              TableCache& cache) {
     TableWriter writer(plan, cache);
     std::vector<shared::MaterialRecord> materials;
     std::vector<shared::LobeRecord> lobes;
@@ -145,8 +163,9 @@ ShadeTables make_shade_tables(const vulkan::DevicePointer& device, const Scene& 
         const Material& material = scene.materials[instance.material];
         const ShadeTraits& traits = plan.classes[instance.shade_class].traits;
         const uint32_t face_size = plan.environments[instance.environment]->face_size();
-        materials.push_back({glm::vec4(material.diffuse, 0.0f), glm::vec4(material.emissive, 0.0f), uint32_t(lobes.size()),
-                             traits.lobe_count, instance.environment, instance.shade_class});
+        materials.push_back({glm::vec4(material.diffuse, 0.0f), glm::vec4(material.emissive, 0.0f),
+                             uint32_t(lobes.size()), traits.lobe_count, instance.environment,
+                             instance.shade_class});
         for (uint32_t which = 0; which < traits.lobe_count; ++which) {
             const KurtLobe lobe = lobe_of(material, which, traits);
             shared::LobeRecord record = lobe_record(lobe);
@@ -161,7 +180,8 @@ ShadeTables make_shade_tables(const vulkan::DevicePointer& device, const Scene& 
                 record.albedo_begin = albedo.begin;
                 record.albedo_width_nodes = albedo.count;
             }
-            if (const auto* regular = std::get_if<Regular>(&plan.settings.sampler)) record.threshold_log = -std::log(regular->threshold);
+            if (const auto* regular = std::get_if<Regular>(&plan.settings.sampler))
+                record.threshold_log = -std::log(regular->threshold);
             lobes.push_back(record);
         }
     }
@@ -184,10 +204,12 @@ ShadeTables make_shade_tables(const vulkan::DevicePointer& device, const Scene& 
         const ShadeTraits& traits = plan.classes[k].traits;
         SampleTable table;
         if (traits.table == TableForm::constant)
-            table = build_table(plan.settings.sampler, traits.table, traits.roughness, plan.map_sets[traits.map_set].face_size);
+            table = build_table(plan.settings.sampler, traits.table, traits.roughness,
+                                plan.map_sets[traits.map_set].face_size);
         tables.class_tables.push_back(std::move(table));
         std::string used;
-        for (const uint32_t count : counts[k]) used += message(used.empty() ? "" : " or ", count);
+        for (const uint32_t count : counts[k])
+            used += message(used.empty() ? "" : " or ", count);
         tables.samples_used.push_back(used.empty() ? "" : used + (traits.lobe_count > 1 ? " a lobe" : ""));
     }
     tables.materials = storage(device, materials);

@@ -42,6 +42,7 @@ struct ShadeTables {
     std::vector<std::string> samples_used; ///< by class: "19 (budget 20)", one text for each lobe, joined
 };
 
-ShadeTables make_shade_tables(const vulkan::DevicePointer& device, const Scene& scene, const Plan& plan, TableCache& cache);
+ShadeTables make_shade_tables(const vulkan::DevicePointer& device, const Scene& scene, const Plan& plan,
+                              TableCache& cache);
 
 } // namespace burnish::render

@@ -38,7 +38,9 @@ uint32_t texture_mask(const Material& material) {
 }
 
 /// Coverage below which a fragment is dropped; blended materials are drawn as masks at one half.
-float cutoff(const Material& material) { return material.alpha_mode == AlphaMode::blend ? 0.5f : material.alpha_cutoff; }
+float cutoff(const Material& material) {
+    return material.alpha_mode == AlphaMode::blend ? 0.5f : material.alpha_cutoff;
+}
 
 shared::SurfaceRecord surface_record(const Material& material, uint32_t texture_begin) {
     const MetallicRoughness source = material.source.value_or(MetallicRoughness{});
@@ -62,7 +64,8 @@ shared::SurfaceRecord surface_record(const Material& material, uint32_t texture_
 shared::DrawRecord draw_record(const Object& object, uint32_t instance) {
     shared::DrawRecord record{};
     record.world_from_object = object.world_from_object;
-    // Cofactors instead of the inverse transpose: the same directions, and finite where an axis is scaled to nothing.
+    // Cofactors instead of the inverse transpose: the same directions, and finite where an axis is scaled to
+    // nothing.
     const glm::mat3 m(object.world_from_object);
     const float determinant = glm::dot(m[0], glm::cross(m[1], m[2]));
     const float sign = determinant < 0.0f ? -1.0f : 1.0f;
@@ -70,7 +73,8 @@ shared::DrawRecord draw_record(const Object& object, uint32_t instance) {
     record.normal_from_object_y = glm::vec4(sign * glm::cross(m[2], m[0]), 0.0f);
     record.normal_from_object_z = glm::vec4(sign * glm::cross(m[0], m[1]), 0.0f);
     // Their length goes with the square of the scale: bring tiny and huge scenes back to order one.
-    const float largest = std::max({glm::length(glm::vec3(record.normal_from_object_x)), glm::length(glm::vec3(record.normal_from_object_y)),
+    const float largest = std::max({glm::length(glm::vec3(record.normal_from_object_x)),
+                                    glm::length(glm::vec3(record.normal_from_object_y)),
                                     glm::length(glm::vec3(record.normal_from_object_z))});
     if (largest > 0.0f) {
         const glm::vec4 scale(glm::vec3(1.0f / largest), 1.0f);
@@ -89,7 +93,8 @@ std::vector<VkVertexInputAttributeDescription> vertex_attributes() {
             {3, 1, VK_FORMAT_R16G16B16A16_UNORM, 16}};
 }
 
-vulkan::Image target(const vulkan::DevicePointer& device, VkFormat format, uint32_t width, uint32_t height, VkImageUsageFlags usage) {
+vulkan::Image target(const vulkan::DevicePointer& device, VkFormat format, uint32_t width, uint32_t height,
+                     VkImageUsageFlags usage) {
     vulkan::ImageSettings settings;
     settings.format = format;
     settings.width = width;
@@ -104,8 +109,8 @@ constexpr VkFormat DEPTH_FORMAT = VK_FORMAT_D32_SFLOAT;
 
 } // namespace
 
-FrameTargets::FrameTargets(const vulkan::DevicePointer& device, uint32_t width_px, uint32_t height_px, bool is_varying, bool has_sum,
-                           uint32_t class_count)
+FrameTargets::FrameTargets(const vulkan::DevicePointer& device, uint32_t width_px, uint32_t height_px,
+                           bool is_varying, bool has_sum, uint32_t class_count)
     : width(width_px), height(height_px), has_varying(is_varying) {
     const VkImageUsageFlags color = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_STORAGE_BIT;
     surface = target(device, SURFACE_FORMAT, width, height, color);
@@ -113,19 +118,23 @@ FrameTargets::FrameTargets(const vulkan::DevicePointer& device, uint32_t width_p
     for (vulkan::Image* image : {&varying_diffuse, &varying_specular, &varying_emissive, &varying_coat})
         *image = target(device, VARYING_FORMAT, is_varying ? width : 1, is_varying ? height : 1, color);
     const VkDeviceSize pixels = VkDeviceSize(width) * height;
-    tile_capacity = ((width + shared::TILE_SIZE - 1) / shared::TILE_SIZE) * ((height + shared::TILE_SIZE - 1) / shared::TILE_SIZE);
+    tile_capacity = ((width + shared::TILE_SIZE - 1) / shared::TILE_SIZE) *
+                    ((height + shared::TILE_SIZE - 1) / shared::TILE_SIZE);
     const VkBufferUsageFlags storage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT;
     // A CPU device shades straight into memory that the host reads.
-    const vulkan::MemoryUse use = device->info().is_software ? vulkan::MemoryUse::read_back : vulkan::MemoryUse::device;
+    const vulkan::MemoryUse use =
+        device->info().is_software ? vulkan::MemoryUse::read_back : vulkan::MemoryUse::device;
     radiance = vulkan::Buffer(device, pixels * sizeof(glm::vec4), storage, use);
     sum = vulkan::Buffer(device, (has_sum ? pixels : 1) * sizeof(glm::vec4), storage, use);
     tiles = vulkan::Buffer(device, VkDeviceSize(class_count) * tile_capacity * sizeof(uint32_t), storage);
-    tile_counts = vulkan::Buffer(device, class_count * sizeof(glm::uvec4), storage | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT);
+    tile_counts = vulkan::Buffer(device, class_count * sizeof(glm::uvec4),
+                                 storage | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT);
     counters = vulkan::Buffer(device, sizeof(shared::Counters), storage);
     view = vulkan::Buffer(device, sizeof(shared::ViewRecord), storage);
 }
 
-SurfacePass::SurfacePass(Pipelines& pipelines, GpuScene& gpu_scene, const Scene& scene, const Plan& plan, const FrameTargets& targets)
+SurfacePass::SurfacePass(Pipelines& pipelines, GpuScene& gpu_scene, const Scene& scene, const Plan& plan,
+                         const FrameTargets& targets)
     : gpu_scene_(gpu_scene), has_varying_(plan.has_varying), has_tangent_(plan.has_tangent) {
     for (const MaterialInstance& instance : plan.instances)
         has_tangent_ |= has_texture(scene.materials[instance.material], &MetallicRoughness::normal_texture);
@@ -139,8 +148,10 @@ SurfacePass::SurfacePass(Pipelines& pipelines, GpuScene& gpu_scene, const Scene&
         if (!is_varying && material.alpha_mode != AlphaMode::opaque && coverage < cutoff(material)) continue;
         const shared::DrawRecord record = draw_record(object, instance);
         // In a wide G-buffer every material is drawn by the varying shader, so that all targets are written.
-        const vulkan::GraphicsPipeline& pipeline = pipeline_for(pipelines, material, has_varying_, record.normal_from_object_x.w < 0.0f);
-        const vulkan::DescriptorSet& set = set_for(pipeline, material, has_varying_ ? object.material : 0, has_varying_, targets);
+        const vulkan::GraphicsPipeline& pipeline =
+            pipeline_for(pipelines, material, has_varying_, record.normal_from_object_x.w < 0.0f);
+        const vulkan::DescriptorSet& set =
+            set_for(pipeline, material, has_varying_ ? object.material : 0, has_varying_, targets);
         draws_.push_back({&pipeline, &set, record, gpu_scene_.mesh(object.mesh)});
     }
 }
@@ -161,16 +172,19 @@ void SurfacePass::add_records(const vulkan::DevicePointer& device, const Scene& 
         surfaces.emplace_back();
         textures.emplace_back();
     }
-    surface_records_ = vulkan::make_buffer(device, std::as_bytes(std::span(surfaces)), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
-    texture_records_ = vulkan::make_buffer(device, std::as_bytes(std::span(textures)), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
+    surface_records_ =
+        vulkan::make_buffer(device, std::as_bytes(std::span(surfaces)), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
+    texture_records_ =
+        vulkan::make_buffer(device, std::as_bytes(std::span(textures)), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
 }
 
-const vulkan::GraphicsPipeline& SurfacePass::pipeline_for(Pipelines& pipelines, const Material& material, bool is_varying,
-                                                          bool is_mirrored) const {
+const vulkan::GraphicsPipeline& SurfacePass::pipeline_for(Pipelines& pipelines, const Material& material,
+                                                          bool is_varying, bool is_mirrored) const {
     vulkan::GraphicsSettings settings;
     const bool has_texture_vertices = gpu_scene_.has_texture_vertices();
-    settings.vertex_bindings = {{0, GpuScene::VERTEX_BYTES, VK_VERTEX_INPUT_RATE_VERTEX},
-                                {1, has_texture_vertices ? GpuScene::TEXTURE_VERTEX_BYTES : 0, VK_VERTEX_INPUT_RATE_VERTEX}};
+    settings.vertex_bindings = {
+        {0, GpuScene::VERTEX_BYTES, VK_VERTEX_INPUT_RATE_VERTEX},
+        {1, has_texture_vertices ? GpuScene::TEXTURE_VERTEX_BYTES : 0, VK_VERTEX_INPUT_RATE_VERTEX}};
     settings.vertex_attributes = vertex_attributes();
     settings.color_formats = {SURFACE_FORMAT};
     if (is_varying) settings.color_formats.insert(settings.color_formats.end(), 4, VARYING_FORMAT);
@@ -184,12 +198,16 @@ const vulkan::GraphicsPipeline& SurfacePass::pipeline_for(Pipelines& pipelines, 
         settings.constants.set(shared::SPEC_TEXTURES, texture_mask(material))
             .set(shared::SPEC_VERTEX_COLOR, material.source && material.source->has_vertex_color)
             .set(shared::SPEC_ALPHA_MASK, material.alpha_mode != AlphaMode::opaque);
-    const std::string key = std::string(is_mirrored ? "mirrored " : "") + (has_texture_vertices ? "textured" : "");
-    return pipelines.graphics("surface/surface.vert", is_varying ? "surface/surface_varying.frag" : "surface/surface.frag", key, settings);
+    const std::string key =
+        std::string(is_mirrored ? "mirrored " : "") + (has_texture_vertices ? "textured" : "");
+    return pipelines.graphics("surface/surface.vert",
+                              is_varying ? "surface/surface_varying.frag" : "surface/surface.frag", key,
+                              settings);
 }
 
-const vulkan::DescriptorSet& SurfacePass::set_for(const vulkan::GraphicsPipeline& pipeline, const Material& material, uint32_t key,
-                                                  bool is_varying, const FrameTargets& targets) {
+const vulkan::DescriptorSet& SurfacePass::set_for(const vulkan::GraphicsPipeline& pipeline,
+                                                  const Material& material, uint32_t key, bool is_varying,
+                                                  const FrameTargets& targets) {
     const auto [entry, is_new] = sets_.try_emplace({key, &pipeline}, pipeline);
     vulkan::DescriptorSet& set = entry->second;
     if (!is_new) return set;
@@ -198,19 +216,23 @@ const vulkan::DescriptorSet& SurfacePass::set_for(const vulkan::GraphicsPipeline
     set.bind(shared::BINDING_SURFACE_MATERIALS, surface_records_);
     set.bind(shared::BINDING_SURFACE_TEXTURE_RECORDS, texture_records_);
     for (const TextureSlot& slot : TEXTURE_SLOTS) {
-        const BoundTexture texture = gpu_scene_.texture(material.source ? *material.source.*slot.use : TextureUse{}, slot.is_srgb);
-        set.bind(shared::BINDING_SURFACE_TEXTURES, texture.image->view(), *texture.sampler, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL,
-                 slot.kind);
+        const BoundTexture texture =
+            gpu_scene_.texture(material.source ? *material.source.*slot.use : TextureUse{}, slot.is_srgb);
+        set.bind(shared::BINDING_SURFACE_TEXTURES, texture.image->view(), *texture.sampler,
+                 VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, slot.kind);
     }
     return set;
 }
 
 void SurfacePass::record(vulkan::Commands& commands, FrameTargets& targets) const {
     vulkan::RenderingTargets rendering;
-    const auto clear = [](vulkan::Image& image) { return vulkan::ColorTarget{.image = &image, .clear = VkClearColorValue{}}; };
+    const auto clear = [](vulkan::Image& image) {
+        return vulkan::ColorTarget{.image = &image, .clear = VkClearColorValue{}};
+    };
     rendering.colors.push_back(clear(targets.surface));
     if (has_varying_)
-        for (vulkan::Image* image : {&targets.varying_diffuse, &targets.varying_specular, &targets.varying_emissive, &targets.varying_coat})
+        for (vulkan::Image* image : {&targets.varying_diffuse, &targets.varying_specular,
+                                     &targets.varying_emissive, &targets.varying_coat})
             rendering.colors.push_back(clear(*image));
     rendering.depth = vulkan::DepthTarget{.image = &targets.depth, .clear = 0.0f};
     commands.begin_rendering(rendering);

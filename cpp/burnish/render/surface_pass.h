@@ -15,7 +15,8 @@ struct FrameTargets {
     bool has_varying = false;
     vulkan::Image surface; ///< RG32UI: see pack_surface in glsl/lib/frame.glsl
     vulkan::Image depth;   ///< D32, reverse z
-    vulkan::Image varying_diffuse, varying_specular, varying_emissive, varying_coat; ///< one texel unless has_varying
+    vulkan::Image varying_diffuse, varying_specular, varying_emissive,
+        varying_coat;           ///< one texel unless has_varying
     vulkan::Buffer radiance;    ///< vec4 a pixel
     vulkan::Buffer sum;         ///< vec4 a pixel, with accumulation; else one
     vulkan::Buffer tiles;       ///< per class, room for all tiles
@@ -24,14 +25,15 @@ struct FrameTargets {
     vulkan::Buffer view;
     uint32_t tile_capacity = 0;
 
-    FrameTargets(const vulkan::DevicePointer& device, uint32_t width, uint32_t height, bool has_varying, bool has_sum,
-                 uint32_t class_count);
+    FrameTargets(const vulkan::DevicePointer& device, uint32_t width, uint32_t height, bool has_varying,
+                 bool has_sum, uint32_t class_count);
 };
 
 /// Descriptors and pipelines of all draws of a plan; lives while its commands may run.
 class SurfacePass {
 public:
-    SurfacePass(Pipelines& pipelines, GpuScene& gpu_scene, const Scene& scene, const Plan& plan, const FrameTargets& targets);
+    SurfacePass(Pipelines& pipelines, GpuScene& gpu_scene, const Scene& scene, const Plan& plan,
+                const FrameTargets& targets);
     void record(vulkan::Commands& commands, FrameTargets& targets) const;
 
 private:
@@ -43,9 +45,10 @@ private:
     };
 
     void add_records(const vulkan::DevicePointer& device, const Scene& scene, const Plan& plan);
-    const vulkan::GraphicsPipeline& pipeline_for(Pipelines& pipelines, const Material& material, bool is_varying, bool is_mirrored) const;
-    const vulkan::DescriptorSet& set_for(const vulkan::GraphicsPipeline& pipeline, const Material& material, uint32_t key, bool is_varying,
-                                         const FrameTargets& targets);
+    const vulkan::GraphicsPipeline& pipeline_for(Pipelines& pipelines, const Material& material,
+                                                 bool is_varying, bool is_mirrored) const;
+    const vulkan::DescriptorSet& set_for(const vulkan::GraphicsPipeline& pipeline, const Material& material,
+                                         uint32_t key, bool is_varying, const FrameTargets& targets);
 
     GpuScene& gpu_scene_;
     bool has_varying_ = false, has_tangent_ = false;

@@ -13,8 +13,8 @@ namespace burnish::render {
 /// `jitter_px`: offset of the rays from the pixel centres, x right, y down.
 shared::ViewRecord make_view(const Camera& camera, uint32_t width, uint32_t height, glm::vec2 jitter_px);
 
-/// Offset of picture `index`, drawn from the reconstruction filter itself (a Blackman-Harris window, 3 pixels wide), so that
-/// all pictures weigh the same. Picture 0 of 1 looks at the centre.
+/// Offset of picture `index`, drawn from the reconstruction filter itself (a Blackman-Harris window, 3 pixels
+/// wide), so that all pictures weigh the same. Picture 0 of 1 looks at the centre.
 glm::vec2 filter_offset(uint32_t index, uint32_t count);
 
 /// Distance along the camera's axis of a reverse-z depth; infinity for 0, where nothing was drawn.

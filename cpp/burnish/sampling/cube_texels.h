@@ -18,7 +18,8 @@ struct FaceAxes {
 };
 FaceAxes face_axes(uint32_t face);
 
-/// The texels of a cube map as they lie in an Environment: 6 face_size^2 of three floats (face, row, column, channel).
+/// The texels of a cube map as they lie in an Environment: 6 face_size^2 of three floats (face, row, column,
+/// channel).
 struct CubeTexels {
     uint32_t face_size = 0;
     std::span<const float> radiance;

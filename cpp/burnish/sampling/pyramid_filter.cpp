@@ -10,7 +10,8 @@ PyramidFilter pyramid_filter(const std::string& name) {
     for (const PyramidFilter filter : {PyramidFilter::box, PyramidFilter::gauss4, PyramidFilter::gauss6}) {
         if (name == pyramid_filter_name(filter)) return filter;
     }
-    throw std::invalid_argument(message("filter: expected \"box\", \"gauss4\" or \"gauss6\", got \"", name, "\""));
+    throw std::invalid_argument(
+        message("filter: expected \"box\", \"gauss4\" or \"gauss6\", got \"", name, "\""));
 }
 
 const char* pyramid_filter_name(PyramidFilter filter) {

@@ -17,7 +17,8 @@ struct Circle {
     uint32_t count;
 };
 
-/// Samples on a circle by eq. 13: the first non-zero circle holds n0, the others as many as keep its arc length.
+/// Samples on a circle by eq. 13: the first non-zero circle holds n0, the others as many as keep its arc
+/// length.
 std::vector<Circle> circles_of(Spacing spacing, uint32_t circle_count, double theta_max) {
     std::vector<Circle> circles;
     const bool has_pole = spacing == Spacing::s1;
@@ -66,9 +67,11 @@ double lobe_q(glm::dvec3 half_vector, glm::dvec2 roughness) {
     return std::exp(-(x * x + y * y));
 }
 
-std::vector<glm::dvec3> regular_pattern(glm::dvec2 roughness, Spacing spacing, uint32_t circle_count, double threshold) {
+std::vector<glm::dvec3> regular_pattern(glm::dvec2 roughness, Spacing spacing, uint32_t circle_count,
+                                        double threshold) {
     if (!(roughness.x > 0.0 && roughness.y > 0.0 && roughness.x <= 10.0 && roughness.y <= 10.0))
-        throw std::invalid_argument(message("roughness: expected values in (0, 10], got (", roughness.x, ", ", roughness.y, ")"));
+        throw std::invalid_argument(
+            message("roughness: expected values in (0, 10], got (", roughness.x, ", ", roughness.y, ")"));
     if (!(threshold > 0.0 && threshold < 1.0))
         throw std::invalid_argument(message("threshold: expected a value in (0, 1), got ", threshold));
     if (circle_count < 1 || circle_count > 64)
@@ -95,7 +98,8 @@ std::vector<glm::dvec3> choose_regular_pattern(glm::dvec2 roughness, uint32_t sa
     };
     const auto is_better = [&](const std::vector<glm::dvec3>& pattern) {
         if (pattern.empty()) return false;
-        if (best.empty() || distance(pattern) != distance(best)) return best.empty() || distance(pattern) < distance(best);
+        if (best.empty() || distance(pattern) != distance(best))
+            return best.empty() || distance(pattern) < distance(best);
         return pattern.size() > best.size();
     };
     for (const Spacing spacing : {Spacing::s1, Spacing::s2}) {
@@ -110,9 +114,9 @@ std::vector<glm::dvec3> choose_regular_pattern(glm::dvec2 roughness, uint32_t sa
 }
 
 double lobe_solid_angle(glm::dvec2 roughness, double threshold) {
-    // The lobe's edge has slopes (a cos t, b sin t). 1 - cos(theta) integrated over azimuth, with azimuth in terms of t:
-    // dphi = a b / |slopes|^2 dt, and 1 - cos = |slopes|^2 / (w (w + 1)), w^2 = 1 + |slopes|^2. Periodic and smooth even for
-    // aspects of a thousand, so that the midpoint rule converges exponentially.
+    // The lobe's edge has slopes (a cos t, b sin t). 1 - cos(theta) integrated over azimuth, with azimuth in
+    // terms of t: dphi = a b / |slopes|^2 dt, and 1 - cos = |slopes|^2 / (w (w + 1)), w^2 = 1 + |slopes|^2.
+    // Periodic and smooth even for aspects of a thousand, so that the midpoint rule converges exponentially.
     constexpr int steps = 1024;
     const double reach = std::sqrt(-std::log(threshold));
     const glm::dvec2 axes = roughness * reach;

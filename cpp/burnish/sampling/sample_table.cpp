@@ -22,10 +22,12 @@ double texels_of_face(uint32_t face_size, float mip_bias) {
     return static_cast<double>(face_size) * face_size * std::exp2(2.0 * mip_bias);
 }
 
-/// Texel factor of a pattern of `count` samples before the view terms (maths: section 4); see SampleTable for hz.
+/// Texel factor of a pattern of `count` samples before the view terms (maths: section 4); see SampleTable for
+/// hz.
 double regular_texel_factor(const Regular& sampler, glm::dvec2 roughness, uint32_t face_size, double count) {
     const double texels = texels_of_face(face_size, sampler.mip_bias);
-    if (sampler.footprint == Footprint::exact) return texels * lobe_solid_angle(roughness, sampler.threshold) / count;
+    if (sampler.footprint == Footprint::exact)
+        return texels * lobe_solid_angle(roughness, sampler.threshold) / count;
     const double reach = std::sqrt(-std::log(double(sampler.threshold)));
     const double sin_u = std::sin(std::atan(reach * roughness.x));
     const double sin_v = std::sin(std::atan(reach * roughness.y));
@@ -52,7 +54,8 @@ SampleTable build_sample_table(const Regular& sampler, glm::vec2 roughness, uint
     const std::vector<glm::dvec3> pattern = choose_regular_pattern(m, sampler.samples, sampler.threshold);
     const double texel_factor = regular_texel_factor(sampler, m, face_size, double(pattern.size()));
 
-    // D without the constants that the quotient cancels; cos_h is the projection that makes D integrate to one.
+    // D without the constants that the quotient cancels; cos_h is the projection that makes D integrate to
+    // one.
     std::vector<double> density(pattern.size());
     double sum = 0.0;
     for (size_t k = 0; k < pattern.size(); ++k) {
@@ -74,7 +77,8 @@ SampleTable build_sample_table(const Importance& sampler, glm::vec2 roughness, u
     SampleTable table;
     for (const glm::dvec2& x : unit_points(sampler.points, sampler.samples)) {
         const double radius = std::sqrt(-std::log(x.x));
-        const glm::dvec2 slope = glm::dvec2(roughness) * radius * glm::dvec2(std::cos(2 * PI * x.y), std::sin(2 * PI * x.y));
+        const glm::dvec2 slope =
+            glm::dvec2(roughness) * radius * glm::dvec2(std::cos(2 * PI * x.y), std::sin(2 * PI * x.y));
         const double cos_h = 1.0 / std::sqrt(1.0 + glm::dot(slope, slope));
         // p_h = D cos_h = q / (pi mx my cos_h^3), and q = x1 by construction.
         const double density = x.x / (PI * roughness.x * roughness.y * cos_h * cos_h * cos_h);
@@ -103,8 +107,8 @@ SampleTable build_scaled_table(const Importance& sampler, uint32_t face_size) {
     table.is_scaled = true;
     for (const glm::dvec2& x : unit_points(sampler.points, sampler.samples)) {
         const double radius = std::sqrt(-std::log(x.x));
-        table.entries.emplace_back(radius * std::cos(2 * PI * x.y), radius * std::sin(2 * PI * x.y), 1.0 / sampler.samples,
-                                   texels * PI / (sampler.samples * x.x));
+        table.entries.emplace_back(radius * std::cos(2 * PI * x.y), radius * std::sin(2 * PI * x.y),
+                                   1.0 / sampler.samples, texels * PI / (sampler.samples * x.x));
     }
     return table;
 }

@@ -13,14 +13,14 @@ namespace burnish {
 
 /// One entry a sample: slopes of the half-vector hx/hz, hy/hz; weight; texel factor.
 ///
-/// With g = cos_i^(1-alpha) cos_o^-alpha and F Fresnel, the lobe's radiance is sum(weight F g L), for furnace divided by
-/// sum(weight F g) and multiplied by the albedo. The texel factor K times the lobe's view terms is the count of level-0
-/// texels a lookup covers; the level is half its log2:
+/// With g = cos_i^(1-alpha) cos_o^-alpha and F Fresnel, the lobe's radiance is sum(weight F g L), for furnace
+/// divided by sum(weight F g) and multiplied by the albedo. The texel factor K times the lobe's view terms is
+/// the count of level-0 texels a lookup covers; the level is half its log2:
 ///   exact, importance:  K (o.h)/hz r^3        published:  K sqrt((ox^2+oz^2)(oy^2+oz^2)) r / ((o.h)/hz)
 /// with r = |i|/|i|_inf. (o.h)/hz is what the kernel has at hand, so K holds the power of hz.
 ///
-/// A scaled table serves every roughness of a textured material: slopes are in units of roughness, the weight is q and the
-/// kernel applies D's other factors itself.
+/// A scaled table serves every roughness of a textured material: slopes are in units of roughness, the weight
+/// is q and the kernel applies D's other factors itself.
 struct SampleTable {
     std::vector<glm::vec4> entries;
     bool is_scaled = false;

@@ -14,14 +14,16 @@ void require_count(const char* name, uint32_t value) {
 }
 
 void require_bias(float value) {
-    if (!(std::abs(value) <= 16.0f)) throw std::invalid_argument(message("mip_bias: expected -16..16, got ", value));
+    if (!(std::abs(value) <= 16.0f))
+        throw std::invalid_argument(message("mip_bias: expected -16..16, got ", value));
 }
 
 struct Check {
     void operator()(const Regular& sampler) const {
         require_count("samples", sampler.samples);
         if (!(sampler.threshold > 0.0f && sampler.threshold < 1.0f))
-            throw std::invalid_argument(message("threshold: expected a value in (0, 1), got ", sampler.threshold));
+            throw std::invalid_argument(
+                message("threshold: expected a value in (0, 1), got ", sampler.threshold));
         require_bias(sampler.mip_bias);
     }
     void operator()(const Importance& sampler) const {
@@ -30,21 +32,29 @@ struct Check {
     }
     void operator()(const Reference& sampler) const {
         if (!(sampler.standard_error > 0.0f && sampler.standard_error <= 1.0f))
-            throw std::invalid_argument(message("standard_error: expected a value in (0, 1], got ", sampler.standard_error));
-        if (sampler.max_samples < 64) throw std::invalid_argument(message("max_samples: expected >= 64, got ", sampler.max_samples));
+            throw std::invalid_argument(
+                message("standard_error: expected a value in (0, 1], got ", sampler.standard_error));
+        if (sampler.max_samples < 64)
+            throw std::invalid_argument(message("max_samples: expected >= 64, got ", sampler.max_samples));
     }
 };
 
 struct Describe {
     std::string operator()(const Regular& sampler) const { return message("regular:", sampler.samples); }
-    std::string operator()(const Importance& sampler) const { return message("importance:", sampler.samples); }
+    std::string operator()(const Importance& sampler) const {
+        return message("importance:", sampler.samples);
+    }
     std::string operator()(const Reference&) const { return "reference"; }
 };
 
 } // namespace
 
-void validate(const Sampler& sampler) { std::visit(Check{}, sampler); }
+void validate(const Sampler& sampler) {
+    std::visit(Check{}, sampler);
+}
 
-std::string describe(const Sampler& sampler) { return std::visit(Describe{}, sampler); }
+std::string describe(const Sampler& sampler) {
+    return std::visit(Describe{}, sampler);
+}
 
 } // namespace burnish

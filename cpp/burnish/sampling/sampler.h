@@ -14,7 +14,8 @@ enum class Normalization { published, projected, furnace };
 enum class PointSet { hammersley, fibonacci };
 enum class ReferenceMethod { automatic, quadrature, progressive };
 
-/// Half-vectors on equally spaced circles (RS section 5). A budget: the pattern whose count comes closest is used.
+/// Half-vectors on equally spaced circles (RS section 5). A budget: the pattern whose count comes closest is
+/// used.
 struct Regular {
     uint32_t samples = 14;
     float threshold = 0.2f; ///< xi0: half-vectors of q below it are dropped, in (0, 1)
@@ -30,7 +31,8 @@ struct Importance {
     float mip_bias = 0.0f;
 };
 
-/// The truth: every level-0 texel, or progressive multiple importance sampling until the standard error is reached.
+/// The truth: every level-0 texel, or progressive multiple importance sampling until the standard error is
+/// reached.
 struct Reference {
     float standard_error = 0.002f; ///< relative to the mean radiance of the glossy part, > 0
     ReferenceMethod method = ReferenceMethod::automatic;

@@ -22,8 +22,8 @@ struct KurtLobe {
     float alpha = 0.0f;        ///< grazing exponent, in [0, 1]
     glm::vec3 weight{1.0f};    ///< colour, >= 0
     float rotation = 0.0f;     ///< radians, turns the tangent counter-clockwise about the normal
-    /// Divide by the albedo for r0 = 1 where that exceeds 1: the published model gains energy toward grazing views for
-    /// alpha > 0 (2.9 times at 89 degrees, slope .6, alpha .5).
+    /// Divide by the albedo for r0 = 1 where that exceeds 1: the published model gains energy toward grazing
+    /// views for alpha > 0 (2.9 times at 89 degrees, slope .6, alpha .5).
     bool conserve_energy = false;
 
     bool is_anisotropic() const { return roughness.x != roughness.y; }
@@ -85,11 +85,10 @@ void validate(const KurtLobe& lobe, const std::string& prefix = "");
 void validate(const Material& material);
 
 /// The stated mapping from metallic-roughness factors to diffuse + lobes; fills both from `material.source`.
-///   m = max(roughness^2, MIN_ROUGHNESS), f0 = min(((ior-1)/(ior+1))^2 specular_color, 1), alpha = 0.5, conserve_energy,
-///   base lobe: r0 = mix(specular f0, base, metallic), white at grazing scaled by mix(specular, 1, metallic);
-///   diffuse = base (1 - metallic) (1 - max(specular f0));
-///   anisotropy: m_x = mix(m, 1, strength^2), m_y = m; clearcoat: a lobe of r0 .04 and weight = factor on
-///   top.
+///   m = max(roughness^2, MIN_ROUGHNESS), f0 = min(((ior-1)/(ior+1))^2 specular_color, 1), alpha = 0.5,
+///   conserve_energy, base lobe: r0 = mix(specular f0, base, metallic), white at grazing scaled by
+///   mix(specular, 1, metallic); diffuse = base (1 - metallic) (1 - max(specular f0)); anisotropy: m_x =
+///   mix(m, 1, strength^2), m_y = m; clearcoat: a lobe of r0 .04 and weight = factor on top.
 void map_metallic_roughness(Material& material);
 
 } // namespace burnish

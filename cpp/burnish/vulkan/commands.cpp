@@ -141,8 +141,8 @@ void Commands::begin_pass(std::string name) {
         device_->begin_label(frame_.commands, &label);
     }
     write_timestamp(2 * (passes_.size() - 1));
-    // lavapipe 22.3 puts the time down when it next flushes, which compute work alone does not make it do: without a
-    // barrier here a pass of dispatches starts when it ends.
+    // lavapipe 22.3 puts the time down when it next flushes, which compute work alone does not make it do:
+    // without a barrier here a pass of dispatches starts when it ends.
     barrier();
 }
 

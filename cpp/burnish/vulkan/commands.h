@@ -113,7 +113,8 @@ public:
     /// indirect arguments.
     void barrier();
 
-    /// A span of commands that is timed and labelled; not inside begin_rendering, not nested. Both ends are barriers.
+    /// A span of commands that is timed and labelled; not inside begin_rendering, not nested. Both ends are
+    /// barriers.
     void begin_pass(std::string name);
     void end_pass();
 

@@ -16,7 +16,7 @@ from .spherical_harmonics import project_cube
 
 
 def conserving_scale(normals: Array, tangents: Array, views: Array, lobe: LobeLike) -> Array:
-    """1 / max(1, E_1), (..., 1): what keeps a lobe from giving back more than it gets; 1 unless it asks for it."""
+    """1 / max(1, E_1), (..., 1): keeps a lobe from giving back more than it gets; 1 unless it asks for it."""
     if not lobe.conserve_energy or lobe.alpha == 0.0:
         return np.ones((*normals.shape[:-1], 1))
     omega_o = local_frame(normals, tangents, views, lobe.rotation).omega_o

@@ -1,4 +1,4 @@
-"""Lobes that conserve energy, in a constant environment: what comes back is min(albedo, 1), whatever the sampler."""
+"""Lobes that conserve energy, in a constant environment: what comes back is min(albedo, 1), by any sampler."""
 
 import base64
 import json
@@ -31,7 +31,8 @@ def _shade(device, sampler, lobe):
     tangents = np.tile(np.float32([1, 0, 0]), (len(views), 1))
     environment = burnish.Environment.from_faces(np.ones((6, 128, 128, 3), np.float32))
     material = burnish.Material(lobes=[lobe])
-    radiance = burnish.shade(environment, material, sampler, normals, tangents, np.float32(views), device=device)
+    views32 = np.float32(views)
+    radiance = burnish.shade(environment, material, sampler, normals, tangents, views32, device=device)
     return radiance[:, 0], directional_albedo(views, lobe.roughness, lobe.alpha)[:, 0]
 
 
@@ -65,7 +66,14 @@ def _write_metal(folder):
         "buffers": [{"uri": f"data:application/octet-stream;base64,{corners}", "byteLength": 36}],
         "bufferViews": [{"buffer": 0, "byteLength": 36}],
         "accessors": [
-            {"bufferView": 0, "componentType": 5126, "type": "VEC3", "count": 3, "min": [0, 0, 0], "max": [1, 1, 0]}
+            {
+                "bufferView": 0,
+                "componentType": 5126,
+                "type": "VEC3",
+                "count": 3,
+                "min": [0, 0, 0],
+                "max": [1, 1, 0],
+            }
         ],
     }
     path = folder / "metal.gltf"

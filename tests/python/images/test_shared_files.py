@@ -1,4 +1,4 @@
-"""Every scene and environment of the shared data renders: finite, lit, not flat, and without a validation message."""
+"""Every scene and environment of the shared data renders: finite, lit, not flat, no validation message."""
 
 from pathlib import Path
 
