@@ -66,7 +66,9 @@ py::dict report_dict(const render::Report& report) {
     result["triangles"] = report.triangles;
     result["non_finite"] = report.non_finite;
     result["standard_error"] = report.standard_error;
-    result["warnings"] = report.warnings;
+    std::vector<std::string> warnings = report.warnings;
+    warnings.insert(warnings.end(), report.problems.begin(), report.problems.end());
+    result["warnings"] = warnings;
     result["ignored_extensions"] = report.ignored_extensions;
     return result;
 }
@@ -118,6 +120,12 @@ py::array_t<float> normal_of(const render::Frame& frame) {
     return make_array(std::move(values), picture_shape(frame, 3));
 }
 
+/// Points give no report back: what went wrong becomes a Python warning.
+void warn(const render::Report& report) {
+    for (const std::string& text : report.problems)
+        if (PyErr_WarnEx(PyExc_RuntimeWarning, text.c_str(), 1) != 0) throw py::error_already_set();
+}
+
 std::span<const glm::vec3> directions(const py::array_t<float, py::array::c_style>& array) {
     return {reinterpret_cast<const glm::vec3*>(array.data()), size_t(array.shape(0))};
 }
@@ -133,10 +141,12 @@ py::array_t<float> shade_points(render::Renderer& renderer, const std::shared_pt
                                      directions(view_array)};
     const PlanSettings settings = plan_settings(sampler, 1, filter);
     std::vector<glm::vec3> radiance;
+    render::Report report;
     {
         const py::gil_scoped_release release;
-        radiance = renderer.shade(environment, material, points, settings);
+        radiance = renderer.shade(environment, material, points, settings, &report);
     }
+    warn(report);
     std::vector<float> values(radiance.size() * 3);
     std::memcpy(values.data(), radiance.data(), values.size() * sizeof(float));
     return make_array(std::move(values), {py::ssize_t(radiance.size()), 3});

@@ -20,7 +20,6 @@ layout(std430, binding = BINDING_STATISTICS) buffer Statistics { vec4 statistics
 
 struct LobeView {
     mat3 frame; // environment space
-    vec3 omega_o;
     vec3 local_o;
     SurfaceLobe lobe;
     float alpha;
@@ -109,12 +108,9 @@ void main() {
         LobeRecord record = lobes[material.lobe_begin + which];
         LobeView v;
         v.lobe = point_lobe(point, material.lobe_begin + which, which);
-        v.frame[0] = record.rotation_cos * point.frame[0] + record.rotation_sin * point.frame[1];
-        v.frame[1] = record.rotation_cos * point.frame[1] - record.rotation_sin * point.frame[0];
-        v.frame[2] = point.frame[2];
-        v.local_o = point.omega_o * v.frame;
-        for (int k = 0; k < 3; ++k) v.frame[k] = environment_from_world(map, v.frame[k]);
-        v.omega_o = environment_from_world(map, point.omega_o);
+        mat3 frame = lobe_frame(point.frame, record);
+        v.local_o = point.omega_o * frame;
+        v.frame = environment_from_world(map, frame);
         v.alpha = record.alpha;
         v.layer = float(map.layer);
         uint seed = hash_uint(point.index * 4u + which) ^ hash_uint(push.batch + 0x51633e2du);

@@ -11,12 +11,9 @@ vec3 shade_lobe(PointToShade point, MapRecord map, uint lobe_index, uint which) 
     SurfaceLobe lobe = point_lobe(point, lobe_index, which);
     LobeRecord record = lobes[lobe_index];
     LobeView v;
-    // Counter-clockwise about the normal, seen from outside.
-    v.frame[0] = record.rotation_cos * point.frame[0] + record.rotation_sin * point.frame[1];
-    v.frame[1] = record.rotation_cos * point.frame[1] - record.rotation_sin * point.frame[0];
-    v.frame[2] = point.frame[2];
-    v.local_o = point.omega_o * v.frame;
-    for (int k = 0; k < 3; ++k) v.frame[k] = environment_from_world(map, v.frame[k]);
+    mat3 frame = lobe_frame(point.frame, record);
+    v.local_o = point.omega_o * frame;
+    v.frame = environment_from_world(map, frame);
     v.omega_o = environment_from_world(map, point.omega_o);
     v.roughness = lobe.roughness;
     v.alpha = record.alpha;

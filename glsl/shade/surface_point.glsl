@@ -104,6 +104,16 @@ vec3 environment_from_world(MapRecord map, vec3 v) {
     return vec3(dot(map.env_from_world_x.xyz, v), dot(map.env_from_world_y.xyz, v), dot(map.env_from_world_z.xyz, v));
 }
 
+mat3 environment_from_world(MapRecord map, mat3 frame) {
+    return mat3(environment_from_world(map, frame[0]), environment_from_world(map, frame[1]), environment_from_world(map, frame[2]));
+}
+
+// The frame turned by the lobe's rotation, counter-clockwise about the normal, seen from outside.
+mat3 lobe_frame(mat3 frame, LobeRecord record) {
+    return mat3(record.rotation_cos * frame[0] + record.rotation_sin * frame[1],
+                record.rotation_cos * frame[1] - record.rotation_sin * frame[0], frame[2]);
+}
+
 bool is_finite(vec3 v) {
     // By bits: isnan and isinf may be optimised away.
     uvec3 exponent = floatBitsToUint(v) & 0x7f800000u;

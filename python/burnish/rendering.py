@@ -77,6 +77,11 @@ def shade(
     radiance : (n, 3) float32
         Linear Rec. 709, toward the eye; (0, 3) where there are no points.
 
+    Warns
+    -----
+    RuntimeWarning
+        If a progressive reference stopped short of its standard error, or values were not finite.
+
     Raises
     ------
     ValueError

@@ -32,10 +32,11 @@ struct Report {
     std::vector<EffectLine> effects;
     std::vector<ClassReport> classes;
     uint64_t triangles = 0;
-    uint64_t non_finite = 0;        ///< values stopped on the device
-    double standard_error = 0.0;    ///< relative, reached by a progressive reference; else 0
-    uint32_t reference_samples = 0; ///< per pixel, of a progressive reference
-    std::vector<std::string> warnings;
+    uint64_t non_finite = 0;           ///< values stopped on the device
+    double standard_error = 0.0;       ///< relative, reached by a progressive reference; else 0
+    uint32_t reference_samples = 0;    ///< per pixel, of a progressive reference
+    std::vector<std::string> warnings; ///< of the scene and its maps, known before anything ran
+    std::vector<std::string> problems; ///< that this run met
     std::vector<std::string> ignored_extensions;
 };
 

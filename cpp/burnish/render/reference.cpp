@@ -143,7 +143,7 @@ void Renderer::run_reference(const Plan& plan, const ShadePass& pass, const Refe
     report.standard_error = error;
     report.reference_samples = batches * 2 * batch_size;
     if (error > settings.standard_error)
-        report.warnings.push_back(message("the reference stopped at ", report.reference_samples,
+        report.problems.push_back(message("the reference stopped at ", report.reference_samples,
                                           " samples a pixel with a standard error of ", error, ", not ",
                                           settings.standard_error));
 }

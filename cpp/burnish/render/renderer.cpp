@@ -30,8 +30,10 @@ std::vector<T> read_buffer(const vulkan::Buffer& buffer, size_t count) {
     return result;
 }
 
-uint64_t read_non_finite(const vulkan::Buffer& counters) {
-    return read_buffer<shared::Counters>(counters, 1)[0].non_finite;
+void add_non_finite(Report& report, const vulkan::Buffer& counters) {
+    report.non_finite = read_buffer<shared::Counters>(counters, 1)[0].non_finite;
+    if (report.non_finite)
+        report.problems.push_back(message(report.non_finite, " values were not finite and became black"));
 }
 
 /// Depth and packed normals, copied before later pictures of the same frame overwrite them.
@@ -218,13 +220,10 @@ Frame Renderer::render(const Scene& scene, const Camera& camera, const RenderSet
     }
     const Stopwatch read_watch;
     frame.radiance = read_buffer<glm::vec4>(spp > 1 ? targets.sum : targets.radiance, pixels);
-    frame.report.non_finite = read_non_finite(targets.counters);
     add_pass_times(times, {{"read back", read_watch.milliseconds()}});
     times.insert(times.end(), frame.report.passes.begin(), frame.report.passes.end());
     frame.report.passes = std::move(times);
-    if (frame.report.non_finite)
-        frame.report.warnings.push_back(
-            message(frame.report.non_finite, " values were not finite and became black"));
+    add_non_finite(frame.report, targets.counters);
     frame.report.wall_ms = wall.milliseconds();
     return frame;
 }
@@ -280,7 +279,7 @@ std::vector<glm::vec3> Renderer::shade(const std::shared_ptr<const Environment>&
         add_pass_times(times, commands.pass_times());
     }
     const std::vector<glm::vec4> result = read_buffer<glm::vec4>(radiance, count);
-    local.non_finite = read_non_finite(counters);
+    add_non_finite(local, counters);
     times.insert(times.end(), local.passes.begin(), local.passes.end());
     local.passes = std::move(times);
     local.wall_ms = wall.milliseconds();

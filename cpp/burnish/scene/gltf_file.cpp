@@ -171,7 +171,7 @@ void load_buffers(Document& document, Container& container) {
     for (size_t i = 0; i < document.model.buffers.size(); ++i) {
         tinygltf::Buffer& buffer = document.model.buffers[i];
         std::string where = message("buffers[", i, "]");
-        if (!buffer.uri.empty()) where += " " + short_uri(buffer.uri);
+        if (!buffer.uri.empty()) where.append(" ").append(short_uri(buffer.uri));
         try {
             if (!buffer.uri.empty())
                 buffer.data = read_uri(document.folder, buffer.uri, remaining);

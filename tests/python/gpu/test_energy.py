@@ -1,4 +1,4 @@
-"""Lobes that conserve energy, in a constant environment: what comes back is min(albedo, 1), by any sampler."""
+"""Lobes that conserve energy in a constant environment: min(albedo, 1) comes back, by any sampler."""
 
 import base64
 import json

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 import burnish
+from burnish import environments
 from burnish.oracle.pyramid import round_to_half
 from burnish.oracle.reference import shade_reference
 from burnish.oracle.shading import shade as oracle_shade
@@ -112,3 +113,12 @@ def test_samplers_come_close_to_the_reference(device, smooth64, points, sampler,
     truth = burnish.shade(smooth64, material, QUADRATURE, *points, device=device)
     got = burnish.shade(smooth64, material, sampler, *points, device=device)
     assert np.sqrt(np.mean((got - truth) ** 2) / np.mean(truth**2)) <= limit
+
+
+def test_points_warn_when_the_reference_stops_short(device):
+    """Shaded points come without a report: that the truth is not reached must not pass in silence."""
+    sampler = burnish.Reference(standard_error=1e-6, method="progressive", max_samples=1024)
+    normals, tangents = np.float32([[0, 0, 1]]), np.float32([[1, 0, 0]])
+    material = burnish.Material(lobes=[burnish.KurtLobe(roughness=0.2)])
+    with pytest.warns(RuntimeWarning, match="the reference stopped at 1024 samples"):
+        burnish.shade(environments.spots(1, 16), material, sampler, normals, tangents, normals, device=device)
