@@ -29,7 +29,9 @@ def make_environment(path: Path) -> Environment:
         print(f"environment: {path}")
         return environment
     print(f"environment: the built-in studio, since {path} is absent (sudo apt-get install blender-data)")
-    return builtin.make_environment("studio")
+    studio = builtin.make_environment("studio")
+    studio.exposure = -1.5  # its lamps are made for darker materials
+    return studio
 
 
 def _at(x: float, y: float, z: float, scale: float = 1.0, tilt: float = 0.0) -> NDArray[np.float64]:
