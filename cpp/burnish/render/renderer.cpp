@@ -47,7 +47,7 @@ void read_surface(FrameTargets& targets, Frame& frame) {
 } // namespace
 
 Renderer::Renderer(std::shared_ptr<vulkan::Device> device)
-    : device_(std::move(device)), pipelines_(device_), pyramid_(device_) {}
+    : device_(std::move(device)), pipelines_(device_), pyramid_(device_), placeholders_(device_) {}
 
 std::vector<std::shared_ptr<EnvironmentMaps>> Renderer::prepare_maps(const Plan& plan,
                                                                      std::vector<vulkan::PassTime>& times) {
@@ -169,7 +169,8 @@ Frame Renderer::render(const Scene& scene, const Camera& camera, const RenderSet
     if (is_reference) reference = make_reference_buffers(scene, plan, pixels);
     const ShadeInputs inputs{&targets, nullptr, 0, &targets.radiance, &targets.counters};
     const SurfacePass surface(pipelines_, gpu_scene, scene, plan, targets);
-    const ShadePass shade(pipelines_, plan, tables, maps, inputs, reference ? &*reference : nullptr);
+    const ShadePass shade(pipelines_, plan, tables, maps, inputs, placeholders_,
+                          reference ? &*reference : nullptr);
     const vulkan::ComputePipeline* accumulate = nullptr;
     vulkan::DescriptorSet accumulate_set;
     const uint32_t spp = plan.settings.spp;
@@ -267,7 +268,8 @@ std::vector<glm::vec3> Renderer::shade(const std::shared_ptr<const Environment>&
     if (std::holds_alternative<Reference>(plan.settings.sampler))
         reference = make_reference_buffers(scene, plan, count);
     const ShadeInputs inputs{nullptr, &point_buffer, uint32_t(count), &radiance, &counters};
-    const ShadePass shade(pipelines_, plan, tables, maps, inputs, reference ? &*reference : nullptr);
+    const ShadePass shade(pipelines_, plan, tables, maps, inputs, placeholders_,
+                          reference ? &*reference : nullptr);
     Report local = start_report(scene, plan, tables);
     local.compile_ms = pipelines_.take_compile_ms();
     if (reference) {

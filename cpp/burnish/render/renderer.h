@@ -85,6 +85,7 @@ private:
     std::mutex mutex_;
     Pipelines pipelines_;
     Pyramid pyramid_;
+    Placeholders placeholders_;
     TableCache tables_;
     uint64_t scene_fingerprint_ = 0;
     std::unique_ptr<GpuScene> scene_;

@@ -90,15 +90,15 @@ vulkan::Image one_texel(const vulkan::DevicePointer& device, VkFormat format) {
 
 } // namespace
 
+Placeholders::Placeholders(const vulkan::DevicePointer& device)
+    : buffer(device, 256, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT),
+      surface(one_texel(device, VK_FORMAT_R32G32_UINT)),
+      varying(one_texel(device, VK_FORMAT_R16G16B16A16_SFLOAT)) {}
+
 ShadePass::ShadePass(Pipelines& pipelines, const Plan& plan, const ShadeTables& tables,
                      const std::vector<std::shared_ptr<EnvironmentMaps>>& maps, const ShadeInputs& inputs,
-                     const ReferenceBuffers* reference)
-    : tables_(tables), maps_(maps), inputs_(inputs), sampler_(pipelines.device(), {}) {
-    const vulkan::DevicePointer& device = pipelines.device();
-    unused_buffer_ = vulkan::Buffer(device, 256, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
-    unused_surface_ = one_texel(device, VK_FORMAT_R32G32_UINT);
-    unused_varying_ = one_texel(device, VK_FORMAT_R16G16B16A16_SFLOAT);
-
+                     const Placeholders& unused, const ReferenceBuffers* reference)
+    : tables_(tables), maps_(maps), inputs_(inputs), unused_(unused), sampler_(pipelines.device(), {}) {
     const bool is_points = inputs.targets == nullptr;
     for (uint32_t k = 0; k < plan.classes.size(); ++k) {
         const ShadeTraits& traits = plan.classes[k].traits;
@@ -147,29 +147,29 @@ ShadePass::Stage ShadePass::make_stage(Pipelines& pipelines, const std::string& 
         if (stage.set.has_binding(binding)) stage.set.bind_storage_image(binding, image.layer_view(0, 0));
     };
     const FrameTargets* targets = inputs_.targets;
-    bind(shared::BINDING_VIEW, targets ? targets->view : unused_buffer_);
+    bind(shared::BINDING_VIEW, targets ? targets->view : unused_.buffer);
     bind(shared::BINDING_MATERIALS, tables_.materials);
     bind(shared::BINDING_LOBES, tables_.lobes);
     bind(shared::BINDING_MAP_RECORDS, tables_.map_records);
     bind(shared::BINDING_ALBEDO_TABLE, tables_.albedo);
-    bind(shared::BINDING_POINTS, inputs_.points ? *inputs_.points : unused_buffer_);
-    bind(shared::BINDING_TILES, targets ? targets->tiles : unused_buffer_);
-    bind(shared::BINDING_TILE_COUNTS, targets ? targets->tile_counts : unused_buffer_);
+    bind(shared::BINDING_POINTS, inputs_.points ? *inputs_.points : unused_.buffer);
+    bind(shared::BINDING_TILES, targets ? targets->tiles : unused_.buffer);
+    bind(shared::BINDING_TILE_COUNTS, targets ? targets->tile_counts : unused_.buffer);
     bind(shared::BINDING_RADIANCE, *inputs_.radiance);
     bind(shared::BINDING_COUNTERS, *inputs_.counters);
-    bind(shared::BINDING_STATISTICS, reference ? reference->statistics : unused_buffer_);
-    bind(shared::BINDING_TEXEL_ALIAS, reference && reference->alias ? *reference->alias : unused_buffer_);
+    bind(shared::BINDING_STATISTICS, reference ? reference->statistics : unused_.buffer);
+    bind(shared::BINDING_TEXEL_ALIAS, reference && reference->alias ? *reference->alias : unused_.buffer);
     if (stage.set.has_binding(shared::BINDING_SAMPLE_TABLE))
         stage.set.bind_texel_buffer(shared::BINDING_SAMPLE_TABLE, tables_.samples_view);
     if (stage.set.has_binding(shared::BINDING_MAPS))
         stage.set.bind(shared::BINDING_MAPS, maps_[map_set]->image().view_as(VK_IMAGE_VIEW_TYPE_CUBE_ARRAY),
                        sampler_);
     const bool has_varying = targets && targets->has_varying;
-    bind_image(shared::BINDING_SURFACE, targets ? targets->surface : unused_surface_);
-    bind_image(shared::BINDING_VARYING_DIFFUSE, has_varying ? targets->varying_diffuse : unused_varying_);
-    bind_image(shared::BINDING_VARYING_SPECULAR, has_varying ? targets->varying_specular : unused_varying_);
-    bind_image(shared::BINDING_VARYING_EMISSIVE, has_varying ? targets->varying_emissive : unused_varying_);
-    bind_image(shared::BINDING_VARYING_COAT, has_varying ? targets->varying_coat : unused_varying_);
+    bind_image(shared::BINDING_SURFACE, targets ? targets->surface : unused_.surface);
+    bind_image(shared::BINDING_VARYING_DIFFUSE, has_varying ? targets->varying_diffuse : unused_.varying);
+    bind_image(shared::BINDING_VARYING_SPECULAR, has_varying ? targets->varying_specular : unused_.varying);
+    bind_image(shared::BINDING_VARYING_EMISSIVE, has_varying ? targets->varying_emissive : unused_.varying);
+    bind_image(shared::BINDING_VARYING_COAT, has_varying ? targets->varying_coat : unused_.varying);
     return stage;
 }
 

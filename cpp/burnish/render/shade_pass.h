@@ -31,12 +31,20 @@ struct ReferenceBuffers {
     bool is_quadrature = false;
 };
 
+/// What lies behind bindings that a kernel declares and a plan does not use; made once for a device.
+struct Placeholders {
+    vulkan::Buffer buffer;
+    vulkan::Image surface, varying;
+
+    explicit Placeholders(const vulkan::DevicePointer& device);
+};
+
 class ShadePass {
 public:
     /// `maps`: one for each map set of the plan.
     ShadePass(Pipelines& pipelines, const Plan& plan, const ShadeTables& tables,
               const std::vector<std::shared_ptr<EnvironmentMaps>>& maps, const ShadeInputs& inputs,
-              const ReferenceBuffers* reference);
+              const Placeholders& unused, const ReferenceBuffers* reference);
 
     /// Lists the tiles of every class; pixels only.
     void record_tiles(vulkan::Commands& commands) const;
@@ -60,10 +68,8 @@ private:
     const ShadeTables& tables_;
     const std::vector<std::shared_ptr<EnvironmentMaps>>& maps_;
     ShadeInputs inputs_;
+    const Placeholders& unused_;
     vulkan::Sampler sampler_;
-    // Bindings of the other source need something behind them.
-    vulkan::Buffer unused_buffer_;
-    vulkan::Image unused_surface_, unused_varying_;
     std::vector<Stage> classes_;
     std::vector<Stage> background_;
     std::vector<Stage> tile_stages_;
