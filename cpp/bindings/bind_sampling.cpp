@@ -138,6 +138,34 @@ mip_bias : float, -16..16
                            "', mip_bias=", self.mip_bias, ")");
         });
 
+    py::class_<Matched>(
+        m, "Matched",
+        R"(The variance-matched sampler: few wide lookups that together have the lobe's covariance.
+
+A lookup in a pyramid has a width of its own. Regular and importance sampling spread their samples over the whole
+lobe and blur it once more; here Gaussian mixtures fitted to the lobe say where the lookups lie and how wide each
+is, so that centres and widths together have the lobe's covariance. Suns are split off and lit analytically.
+
+Parameters
+----------
+samples : int, one of 2..10, 12, 14, 16, 17, 20, 24, 30, 32, 48, 64
+    Lookups for each lobe.)")
+        .def(py::init([](int64_t samples) {
+                 return checked(Matched{count_of("samples", samples, 1, MAX_SAMPLES)});
+             }),
+             py::arg("samples") = 14)
+        .def_readonly("samples", &Matched::samples, "Lookups for each lobe.")
+        .def("__repr__", [](const Matched& self) { return message("Matched(samples=", self.samples, ")"); });
+
+    py::class_<Prefiltered>(
+        m, "Prefiltered",
+        R"(One lookup a lobe in a map prefiltered for its roughness, times the lobe's exact albedo (split sum).
+
+What most engines ship: the map is filtered once for a view along the normal, so reflections do not stretch toward
+grazing and brushed lobes are round.)")
+        .def(py::init<>())
+        .def("__repr__", [](const Prefiltered&) { return "Prefiltered()"; });
+
     py::class_<Reference>(m, "Reference", R"(The truth that others are judged by.
 
 Parameters

@@ -77,6 +77,8 @@ SHARED_CONST uint TABLE_BUFFER = 1u;   // any lobes
 // Any lobes, slopes in units of a roughness that varies over the surface.
 SHARED_CONST uint TABLE_SCALED_REGULAR = 2u;
 SHARED_CONST uint TABLE_SCALED_IMPORTANCE = 3u;
+SHARED_CONST uint TABLE_MATCHED = 4u;     // mixtures by the aspect of the lobe's mirrored axes, placed at every point
+SHARED_CONST uint TABLE_PREFILTERED = 5u; // one lookup in a map prefiltered for the roughness
 SHARED_CONST uint FOOTPRINT_PUBLISHED = 0u;
 SHARED_CONST uint FOOTPRINT_EXACT = 1u;
 SHARED_CONST uint NORMALIZATION_CONSTANT = 0u; // the table's weights sum as they must

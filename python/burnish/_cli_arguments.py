@@ -26,7 +26,8 @@ examples:
   burnish doctor --device llvmpipe
 """
 SAMPLER_HELP = (
-    "regular[:COUNT[:published]], importance[:COUNT[:hammersley|fibonacci]] or reference[:STANDARD_ERROR] "
+    "matched[:COUNT], regular[:COUNT[:published]], importance[:COUNT[:hammersley|fibonacci]], prefiltered "
+    "or reference[:STANDARD_ERROR] "
     "(default: regular:14)"
 )
 SCENE_HELP = "a .gltf or .glb file, or a built-in scene: sphere, spheres, plane, shaderball"
@@ -49,8 +50,8 @@ def parse_size(text: str) -> tuple[int, int]:
 
 
 def parse_sampler(text: str) -> "Sampler":
-    """Read a sampler such as ``regular:14``, ``importance:30:fibonacci`` or ``reference:0.002``."""
-    from burnish import Importance, Reference, Regular
+    """Read a sampler such as ``matched:14``, ``regular:14``, ``importance:30:fibonacci`` or ``reference:0.002``."""
+    from burnish import Importance, Matched, Prefiltered, Reference, Regular
 
     name, *options = text.split(":")
     try:
@@ -66,6 +67,10 @@ def parse_sampler(text: str) -> "Sampler":
                 return Importance(samples=count)
             if options[1] == "fibonacci":
                 return Importance(samples=count, points="fibonacci")
+        elif name == "matched" and len(options) <= 1:
+            return Matched(samples=int(options[0])) if options else Matched()
+        elif name == "prefiltered" and not options:
+            return Prefiltered()
         elif name == "reference" and len(options) <= 1:
             return Reference(standard_error=float(options[0])) if options else Reference()
     except (ValueError, TypeError) as error:

@@ -14,7 +14,7 @@ _Color: TypeAlias = float | Sequence[float]
 _Rotation: TypeAlias = float | ArrayLike | None
 _Filter: TypeAlias = Literal["box", "gauss4", "gauss6"]
 _Progress: TypeAlias = Callable[[float, str], None] | None
-_Sampler: TypeAlias = Regular | Importance | Reference
+_Sampler: TypeAlias = Regular | Importance | Matched | Prefiltered | Reference
 
 class FileError(OSError): ...
 class VulkanError(RuntimeError): ...
@@ -324,6 +324,14 @@ class Importance:
     def points(self) -> Literal["hammersley", "fibonacci"]: ...
     @property
     def mip_bias(self) -> float: ...
+
+class Matched:
+    def __init__(self, samples: int = 14) -> None: ...
+    @property
+    def samples(self) -> int: ...
+
+class Prefiltered:
+    def __init__(self) -> None: ...
 
 class Reference:
     def __init__(

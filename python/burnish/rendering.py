@@ -11,7 +11,9 @@ from burnish._device import default_device
 from burnish.frame import Frame
 from burnish.report import Report
 
-Sampler: TypeAlias = _core.Regular | _core.Importance | _core.Reference
+Sampler: TypeAlias = (
+    _core.Regular | _core.Importance | _core.Matched | _core.Prefiltered | _core.Reference
+)
 Filter: TypeAlias = Literal["box", "gauss4", "gauss6"]
 FloatArray: TypeAlias = NDArray[np.float32]
 
@@ -59,7 +61,7 @@ def shade(
         Distant light.
     material : Material
         One material for all points.
-    sampler : Regular, Importance or Reference
+    sampler : Regular, Importance, Matched, Prefiltered or Reference
         How the lobes meet the light.
     normals : (n, 3) float32
         Unit vectors, world frame, C-contiguous.
@@ -134,7 +136,7 @@ def render(
         None: the scene's first camera, or one that sees all of it.
     size : (height, width)
         Pixels, 1..16384 each.
-    sampler : Regular, Importance, Reference or None
+    sampler : Regular, Importance, Matched, Prefiltered, Reference or None
         None: ``Regular()``, 14 samples.
     device : Device or None
         None: the best one, opened once.
@@ -181,7 +183,7 @@ def plan(
     ----------
     scene : Scene
         As `render` takes it.
-    sampler : Regular, Importance, Reference or None
+    sampler : Regular, Importance, Matched, Prefiltered, Reference or None
         None: ``Regular()``.
     spp : int
         Jittered frames that would be accumulated.

@@ -114,6 +114,12 @@ std::string describe(const ShadeClass& one, const Scene& scene, const Plan& plan
     case TableForm::scaled:
         text += "; roughness varies over the surface, samples scale with it";
         break;
+    case TableForm::matched:
+        text += "; mixtures by the lobe's aspect at every point, from a buffer";
+        break;
+    case TableForm::prefiltered:
+        text += "; one lookup a lobe in a prefiltered map";
+        break;
     }
     return text;
 }

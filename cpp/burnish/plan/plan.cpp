@@ -98,7 +98,11 @@ ShadeTraits traits_of(const Scene& scene, const Plan& plan, const MaterialInstan
     }
     traits.has_tangent |= has_texture(material, &MetallicRoughness::anisotropy_texture);
     if (traits.lobe_count == 0 || std::holds_alternative<Reference>(plan.settings.sampler)) return traits;
-    if (traits.has_varying) {
+    if (std::holds_alternative<Matched>(plan.settings.sampler)) {
+        traits.table = TableForm::matched;
+    } else if (std::holds_alternative<Prefiltered>(plan.settings.sampler)) {
+        traits.table = TableForm::prefiltered;
+    } else if (traits.has_varying) {
         traits.table = TableForm::scaled;
     } else if (traits.lobe_count == 1 && fits_into_constants(plan.settings.sampler)) {
         traits.table = TableForm::constant;

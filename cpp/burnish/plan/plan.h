@@ -34,9 +34,9 @@ struct PassLine {
 };
 
 enum class AlphaForm { zero, half, general };
-/// Where a class's samples come from: baked into the pipeline, a buffer, or a buffer in units of a varying
-/// roughness.
-enum class TableForm { none, constant, buffer, scaled };
+/// Where a class's samples come from: baked into the pipeline; a buffer; a buffer in units of a varying
+/// roughness; mixtures by the lobe's aspect, placed at every point; the one lookup of a prefiltered map.
+enum class TableForm { none, constant, buffer, scaled, matched, prefiltered };
 
 /// One specialised pipeline and what it is made for. Two materials of equal traits share it.
 struct ShadeTraits {

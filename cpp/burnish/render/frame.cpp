@@ -53,6 +53,10 @@ const char* table_name(TableForm form) {
         return "buffer";
     case TableForm::scaled:
         return "scaled";
+    case TableForm::matched:
+        return "matched";
+    case TableForm::prefiltered:
+        return "prefiltered";
     }
     return "";
 }

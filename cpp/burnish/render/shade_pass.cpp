@@ -27,6 +27,10 @@ uint32_t table_of(TableForm form, const Sampler& sampler) {
     case TableForm::scaled:
         return std::holds_alternative<Regular>(sampler) ? shared::TABLE_SCALED_REGULAR
                                                         : shared::TABLE_SCALED_IMPORTANCE;
+    case TableForm::matched:
+        return shared::TABLE_MATCHED;
+    case TableForm::prefiltered:
+        return shared::TABLE_PREFILTERED;
     case TableForm::none:
     case TableForm::buffer:
         return shared::TABLE_BUFFER;

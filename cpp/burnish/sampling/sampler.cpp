@@ -1,5 +1,6 @@
 #include "burnish/sampling/sampler.h"
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
@@ -30,6 +31,15 @@ struct Check {
         require_count("samples", sampler.samples);
         require_bias(sampler.mip_bias);
     }
+    void operator()(const Matched& sampler) const {
+        if (std::find(MATCHED_COUNTS.begin(), MATCHED_COUNTS.end(), sampler.samples) != MATCHED_COUNTS.end())
+            return;
+        std::string counts;
+        for (const uint32_t count : MATCHED_COUNTS)
+            counts += message(counts.empty() ? "" : ", ", count);
+        throw std::invalid_argument(message("samples: expected one of ", counts, ", got ", sampler.samples));
+    }
+    void operator()(const Prefiltered&) const {}
     void operator()(const Reference& sampler) const {
         if (!(sampler.standard_error > 0.0f && sampler.standard_error <= 1.0f))
             throw std::invalid_argument(
@@ -44,6 +54,8 @@ struct Describe {
     std::string operator()(const Importance& sampler) const {
         return message("importance:", sampler.samples);
     }
+    std::string operator()(const Matched& sampler) const { return message("matched:", sampler.samples); }
+    std::string operator()(const Prefiltered&) const { return "prefiltered"; }
     std::string operator()(const Reference&) const { return "reference"; }
 };
 

@@ -1,6 +1,7 @@
 // The samplers a user chooses from, as plain settings. Their tables are made in sample_table.h.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <string>
 #include <variant>
@@ -31,6 +32,19 @@ struct Importance {
     float mip_bias = 0.0f;
 };
 
+/// Counts that mixtures were fitted for (see matched_table.h).
+constexpr std::array<uint32_t, 19> MATCHED_COUNTS = {2,  3,  4,  5,  6,  7,  8,  9,  10, 12,
+                                                     14, 16, 17, 20, 24, 30, 32, 48, 64};
+
+/// Our own: lookups placed so that the covariance of their centres and their own widths together are the
+/// lobe's (maths: section 6).
+struct Matched {
+    uint32_t samples = 14; ///< one of MATCHED_COUNTS
+};
+
+/// One lookup a lobe in a map prefiltered for its roughness, times the exact albedo: what engines ship.
+struct Prefiltered {};
+
 /// The truth: every level-0 texel, or progressive multiple importance sampling until the standard error is
 /// reached.
 struct Reference {
@@ -39,11 +53,11 @@ struct Reference {
     uint32_t max_samples = 1u << 16; ///< per pixel; a warning says so when it stops a progressive run
 };
 
-using Sampler = std::variant<Regular, Importance, Reference>;
+using Sampler = std::variant<Regular, Importance, Matched, Prefiltered, Reference>;
 
 /// Throws std::invalid_argument, naming field, range and value.
 void validate(const Sampler& sampler);
-/// "regular:14", "importance:14", "reference": for reports.
+/// "regular:14", "importance:14", "matched:14", "prefiltered", "reference": for reports.
 std::string describe(const Sampler& sampler);
 
 } // namespace burnish
