@@ -36,6 +36,10 @@ def _shortest(value: Any) -> Any:
     return float(f"{value:.6g}") if isinstance(value, float) else value
 
 
+def _short_text(value: Any) -> str:
+    return f"{value:g}" if isinstance(value, float) else str(value)
+
+
 def _leading_parameter(name: str) -> str | None:
     """Name the parameter that stands right behind the sampler's name, if any."""
     kind = getattr(_core, name.capitalize())
@@ -71,12 +75,12 @@ def sampler_to_text(sampler: Any, with_count: bool = True) -> str:
     if leading is not None:
         value = parameters.pop(leading)
         if with_count:
-            parts.append(str(value))
+            parts.append(_short_text(value))
     for word, meaning in WORDS.get(name, {}).items():
         if all(parameters[key] == value for key, value in meaning.items()):
             parts.append(word)
             parameters |= {key: default[key] for key in meaning}
-    parts += [f"{key}={value}" for key, value in parameters.items() if value != default[key]]
+    parts += [f"{key}={_short_text(value)}" for key, value in parameters.items() if value != default[key]]
     return ":".join(parts)
 
 
@@ -87,6 +91,18 @@ def _value(text: str) -> int | float | str:
         except ValueError:
             continue
     return text
+
+
+def _base_sampler(words: list[str]) -> Any:
+    """Read the command line's form, or a sampler of the engine that the command line has no form for."""
+    name, *options = words
+    kind = getattr(_core, name.capitalize(), None)
+    if name in ("regular", "importance", "reference") or kind is None or len(options) > 1:
+        return parse_sampler(":".join(words))
+    try:
+        return parse_sampler(":".join(words))
+    except ValueError:
+        return kind(int(options[0])) if options else kind()
 
 
 def sampler_from_text(text: str) -> Any:
@@ -103,7 +119,7 @@ def sampler_from_text(text: str) -> Any:
         If there is no such sampler or parameter, or a value is out of its range.
     """
     parts = text.split(":")
-    sampler = parse_sampler(":".join(part for part in parts if "=" not in part))
+    sampler = _base_sampler([part for part in parts if "=" not in part])
     given = dict(part.split("=", 1) for part in parts if "=" in part)
     if not given:
         return sampler

@@ -11,8 +11,9 @@ from numpy.typing import NDArray
 from burnish import _core
 from burnish._device import default_device
 from burnish.frame import FloatArray
-from burnish.rendering import Filter, plan, render, shade
+from burnish.rendering import Filter, render, shade
 from burnish.study import identity
+from burnish.study.sampler_text import sampler_to_text
 from burnish.study.timing import frame_times
 
 Sampler: TypeAlias = Any
@@ -83,7 +84,7 @@ class Subject(Protocol):
     def describe(self) -> dict[str, Any]:
         """Name what is drawn, for people: scene, material, environment, filter, size."""
 
-    def fingerprint(self) -> str:
+    def fingerprint(self, with_filter: bool = True) -> str:
         """Digest of all that decides the values: equal for equal subjects, in every process."""
 
 
@@ -154,13 +155,13 @@ class SceneSubject:
             "spp": self._spp,
         }
 
-    def fingerprint(self) -> str:
+    def fingerprint(self, with_filter: bool = True) -> str:
         """Digest of scene, camera, size and filter."""
         camera = self._camera or (self._scene.cameras[0] if self._scene.cameras else None)
         return identity.digest(
             identity.describe_scene(self._scene),
             identity.describe_camera(camera),
-            [*self._size, self._spp, self._filter],
+            [*self._size, self._spp, self._filter if with_filter else ""],
         )
 
 
@@ -181,6 +182,7 @@ class PointsSubject:
 
     def __init__(self, points: Points, filter: Filter = "gauss6", device: _core.Device | None = None) -> None:
         self._points, self._filter = points, filter
+        self._counts: dict[str, str] = {}
         self._device = device or default_device()
 
     def draw(self, sampler: Sampler) -> Shot:
@@ -199,12 +201,17 @@ class PointsSubject:
         )
         wall_ms = 1e3 * (time.perf_counter() - began)
         times = {"frame_ms": wall_ms, "shade_ms": wall_ms, "wall_ms": wall_ms}
-        return Shot(color, np.ones(len(color), bool), times, samples_used=self._samples_used(sampler))
+        return Shot(color, np.ones(len(color), bool), times, samples_used=self._count(sampler))
 
-    def _samples_used(self, sampler: Sampler) -> str:
-        """Ask the plan: shading points returns no report."""
-        classes = plan(_core.Scene.sphere(self._points.material), sampler, filter=self._filter)["classes"]
-        return ", ".join(dict.fromkeys(str(one["samples"]) for one in classes if one.get("samples")))
+    def _count(self, sampler: Sampler) -> str:
+        """Render the material on a few pixels and read the report: shaded points come without one."""
+        text = sampler_to_text(sampler)
+        if text not in self._counts:
+            scene = _core.Scene.sphere(self._points.material)
+            scene.environment = self._points.environment
+            frame = render(scene, size=(8, 8), sampler=sampler, device=self._device, filter=self._filter)
+            self._counts[text] = frame.report.samples_used
+        return self._counts[text]
 
     def device_names(self) -> dict[str, Any]:
         """Give ``device``, ``driver`` and ``is_software``."""
@@ -223,14 +230,14 @@ class PointsSubject:
             "spp": 1,
         }
 
-    def fingerprint(self) -> str:
+    def fingerprint(self, with_filter: bool = True) -> str:
         """Digest of environment, material, points and filter."""
         points = self._points
         return identity.digest(
             identity.describe_environment(points.environment),
             identity.describe_material(points.material),
             [points.normals, points.tangents, points.views],
-            [self._filter],
+            [self._filter if with_filter else ""],
         )
 
 
