@@ -7,12 +7,15 @@ and filters. Both give a `Study`, which holds the rows and makes tables, curves 
 from burnish.study.accuracy import accuracy
 from burnish.study.metrics import Errors, measure_errors
 from burnish.study.runner import StudyInterrupted
+from burnish.study.sources import EnvironmentSource
 from burnish.study.study import Study
 from burnish.study.subject import Points
+from burnish.study.sweep import sweep
 from burnish.study.timing import AlternatingRuns, Timing, frame_times, time_alternating
 
 __all__ = [
     "AlternatingRuns",
+    "EnvironmentSource",
     "Errors",
     "Points",
     "Study",
@@ -21,5 +24,6 @@ __all__ = [
     "accuracy",
     "frame_times",
     "measure_errors",
+    "sweep",
     "time_alternating",
 ]

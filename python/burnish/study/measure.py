@@ -18,8 +18,8 @@ from burnish.study.store import PictureStore, StoredPicture
 from burnish.study.subject import Shot, Subject
 from burnish.study.timing import AlternatingRuns, Timing
 
-Step = Callable[[str], None]
-"""Called with what was just drawn."""
+Step = Callable[[int, str], None]
+"""Called with a number of pictures that were drawn, 0 while one is being drawn, and what they show."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -76,10 +76,12 @@ class Measured:
     is_complete: bool
 
 
-def _find_reference(cell: Cell, subject: Subject, store: PictureStore) -> StoredPicture:
+def _find_reference(cell: Cell, subject: Subject, store: PictureStore, step: Step) -> StoredPicture:
     reference = store.get(cell.reference_key())
     if reference is None:
-        shot = subject.draw(sampler_from_text(cell.reference))
+        shot = subject.draw(
+            sampler_from_text(cell.reference), lambda share, _: step(0, f"reference {share:.0%}")
+        )
         reference = StoredPicture(shot.color, shot.covered, shot.standard_error)
         store.put(cell.reference_key(), reference)
     return reference
@@ -97,7 +99,7 @@ def measure_cell(cell: Cell, samplers: Sequence[str], store: PictureStore, step:
     store : PictureStore
         Holds the reference afterwards, and every sampler's picture.
     step : callable
-        Called after each drawing.
+        Called after each drawing, and now and then during the reference's.
 
     Returns
     -------
@@ -109,8 +111,8 @@ def measure_cell(cell: Cell, samplers: Sequence[str], store: PictureStore, step:
         If it comes before the first round of timed runs is complete.
     """
     subject = cell.source.open()
-    reference = _find_reference(cell, subject, store)
-    step("reference")
+    reference = _find_reference(cell, subject, store, step)
+    step(1, "reference")
 
     made = {text: sampler_from_text(text) for text in samplers}
     shots: dict[str, Shot] = {}
@@ -120,7 +122,7 @@ def measure_cell(cell: Cell, samplers: Sequence[str], store: PictureStore, step:
         shot = shots[text] = subject.draw(sampler)
         errors[text] = measure_errors(shot.color, reference.color, reference.covered)
         store.put(cell.picture_key(text), StoredPicture(shot.color, shot.covered))
-        step(text)
+        step(1, text)
 
     def run(sampler: Any) -> Mapping[str, float]:
         return subject.draw(sampler).times
@@ -129,7 +131,7 @@ def measure_cell(cell: Cell, samplers: Sequence[str], store: PictureStore, step:
     is_complete = True
     try:
         for _ in range(cell.repeats):
-            runs.run_round(step)
+            runs.run_round(partial(step, 1))
     except KeyboardInterrupt:
         if runs.rounds == 0:
             raise

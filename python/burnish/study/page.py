@@ -137,6 +137,7 @@ def _findings(study: "Study") -> str:
     if any(row["flip"] is None and row["height"] > 1 for row in study.rows):
         lines.append("FLIP is missing: the package flip-evaluator was not installed.")
     warnings = dict.fromkeys(warning for row in study.rows for warning in row["warnings"])
+    lines += study.notes
     lines += [f"The renderer warned: {warning}" for warning in warnings]
     return "".join(f"<li>{_escape(line)}</li>" for line in lines)
 

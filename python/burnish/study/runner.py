@@ -2,7 +2,7 @@
 
 import os
 import sys
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from typing import Any
 
@@ -10,12 +10,9 @@ from tqdm import tqdm
 
 from burnish._progress import DELAY_S
 from burnish.study.journal import Journal, Row
-from burnish.study.measure import Cell, measure_cell
+from burnish.study.measure import Cell, Step, measure_cell
 from burnish.study.store import CellPictures, PictureStore
 from burnish.study.study import CELL_KEYS, Study
-
-Advance = Callable[[int, str], None]
-"""Called with a number of pictures that were drawn, and what they show."""
 
 
 class StudyInterrupted(KeyboardInterrupt):
@@ -33,7 +30,7 @@ class StudyInterrupted(KeyboardInterrupt):
 
 
 @contextmanager
-def step_bar(steps: int, is_shown: bool) -> Iterator[Advance]:
+def step_bar(steps: int, is_shown: bool) -> Iterator[Step]:
     """Show a bar of pictures drawn on stderr, only on a terminal."""
     bar = tqdm(
         total=steps,
@@ -58,7 +55,13 @@ def missing_samplers(cell: Cell, journal: Journal) -> list[str]:
     return [text for text in cell.samplers if journal.find(cell.row_key(text), cell.repeats) is None]
 
 
-def collect(cells: Sequence[Cell], journal: Journal, store: PictureStore | None, command: str = "") -> Study:
+def collect(
+    cells: Sequence[Cell],
+    journal: Journal,
+    store: PictureStore | None,
+    command: str = "",
+    notes: Sequence[str] = (),
+) -> Study:
     """Make a study of all rows that the journal has for these cells, in the cells' order.
 
     Parameters
@@ -71,6 +74,8 @@ def collect(cells: Sequence[Cell], journal: Journal, store: PictureStore | None,
         Has the pictures. None: the study gets none.
     command : str
         Command line that made it.
+    notes : sequence of str
+        What a reader of the study must know.
     """
     rows: list[Row] = []
     pictures: list[CellPictures] = []
@@ -85,7 +90,7 @@ def collect(cells: Sequence[Cell], journal: Journal, store: PictureStore | None,
         description: dict[str, Any] = {key: next(iter(cell_rows.values()))[key] for key in CELL_KEYS}
         colors = {text: picture.color for text, picture in drawn.items() if picture is not None}
         pictures.append(CellPictures(description, reference, colors))
-    return Study(rows, pictures, command)
+    return Study(rows, pictures, command, list(notes))
 
 
 def run_cells(
@@ -130,19 +135,19 @@ def run_cells(
             for index, (cell, samplers) in enumerate(zip(cells, missing, strict=True)):
                 if not samplers:
                     continue
-                measured = measure_cell(cell, samplers, store, lambda what: advance(1, what))
+                measured = measure_cell(cell, samplers, store, advance)
                 for row in measured.rows:
                     journal.append(row)
                 if not measured.is_complete:
                     raise KeyboardInterrupt
                 if not keeps_pictures:
-                    _forget(store, cell, cells[index + 1 : index + 2])
+                    forget_cell(store, cell, cells[index + 1 : index + 2])
     except KeyboardInterrupt as interruption:
         raise StudyInterrupted(collect(cells, journal, pictures, command)) from interruption
     return collect(cells, journal, pictures, command)
 
 
-def _forget(store: PictureStore, cell: Cell, following: Sequence[Cell]) -> None:
+def forget_cell(store: PictureStore, cell: Cell, following: Sequence[Cell]) -> None:
     """Drop a cell's pictures, and its reference unless the next cell has the same."""
     for text in cell.samplers:
         store.forget(cell.picture_key(text))

@@ -51,11 +51,14 @@ class Study:
         For the page; empty where none were kept, or the study comes from a file.
     command : str
         Command line that made it, for the page.
+    notes : list of str
+        What a reader must know, such as that workers shared a machine while they took times.
     """
 
     rows: list[Row]
     pictures: list[CellPictures] = field(default_factory=list)
     command: str = ""
+    notes: list[str] = field(default_factory=list)
 
     def __repr__(self) -> str:
         return f"Study({len(self.rows)} rows, {len(self.cells())} cells)"
@@ -139,7 +142,7 @@ class Study:
         path : path
             Its folder must exist.
         """
-        data = {"burnish_study": FORMAT, "command": self.command, "rows": self.rows}
+        data = {"burnish_study": FORMAT, "command": self.command, "notes": self.notes, "rows": self.rows}
         _write_text(path, json.dumps(data, indent=1, allow_nan=False) + "\n")
 
     @classmethod
@@ -163,7 +166,7 @@ class Study:
             rows = list(data["rows"])
             for row in rows:
                 cell_of(row)
-            return cls(rows, command=str(data["command"]))
+            return cls(rows, command=str(data["command"]), notes=list(data["notes"]))
         except FileNotFoundError as error:
             raise file_error(path, "expected a file, found none") from error
         except (ValueError, KeyError, TypeError) as error:

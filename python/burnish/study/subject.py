@@ -1,7 +1,7 @@
 """What a study draws again and again: a scene seen by a camera, or points of a surface."""
 
 import time
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from typing import Any, Protocol, TypeAlias
 
@@ -18,6 +18,9 @@ from burnish.study.timing import frame_times
 
 Sampler: TypeAlias = Any
 """Any of the engine's samplers; a study knows none of them by name."""
+
+
+Progress: TypeAlias = Callable[[float, str], None]
 
 
 @dataclass(frozen=True, eq=False)
@@ -75,8 +78,8 @@ class Shot:
 class Subject(Protocol):
     """Something that can be drawn with any sampler."""
 
-    def draw(self, sampler: Sampler) -> Shot:
-        """Draw it once."""
+    def draw(self, sampler: Sampler, progress: Progress | None = None) -> Shot:
+        """Draw it once; `progress` is called with the share done and the step's name."""
 
     def device_names(self) -> dict[str, Any]:
         """Give ``device``, ``driver`` and ``is_software``."""
@@ -124,9 +127,11 @@ class SceneSubject:
         self._spp, self._filter = spp, filter
         self._device = device or default_device()
 
-    def draw(self, sampler: Sampler) -> Shot:
+    def draw(self, sampler: Sampler, progress: Progress | None = None) -> Shot:
         """Render one frame."""
-        frame = render(self._scene, self._camera, self._size, sampler, self._device, self._spp, self._filter)
+        frame = render(
+            self._scene, self._camera, self._size, sampler, self._device, self._spp, self._filter, progress
+        )
         report = frame.report
         return Shot(
             frame.color,
@@ -185,8 +190,8 @@ class PointsSubject:
         self._counts: dict[str, str] = {}
         self._device = device or default_device()
 
-    def draw(self, sampler: Sampler) -> Shot:
-        """Shade all points once."""
+    def draw(self, sampler: Sampler, progress: Progress | None = None) -> Shot:
+        """Shade all points once; nothing is heard of it until it is done."""
         points = self._points
         began = time.perf_counter()
         color = shade(
