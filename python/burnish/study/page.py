@@ -76,6 +76,7 @@ def make_page(study: "Study") -> str:
     return template.substitute(
         facts=_facts(study),
         findings=_findings(study),
+        width="wide" if len(study.cells()) > 1 else "narrow",
         curves="".join(_curve(study, *curve) for curve in CURVES),
         comparisons=_section("Compare", COMPARE_NOTE, [_comparison(*pair) for pair in enumerate(pictures)]),
         differences=_section(

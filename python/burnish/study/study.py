@@ -3,7 +3,7 @@
 import csv
 import json
 import os
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
@@ -190,7 +190,9 @@ class Study:
                 writer.writerow([*(row.get(key) for key in plain), *times, "; ".join(row["warnings"])])
 
     def format_table(self, columns: Sequence[str] = ()) -> str:
-        """Lay the rows out as text, one block for each cell.
+        """Lay the rows out as text, one block for each cell; a star marks the Pareto front.
+
+        The front is that of frame time and relative RMSE.
 
         Parameters
         ----------
@@ -200,7 +202,11 @@ class Study:
         columns = columns or TABLE_COLUMNS
         blocks = []
         for cell in self.cells():
-            lines = [list(columns), *([format_value(row.get(key)) for key in columns] for row in cell)]
+            front = pareto_front(cell, "relative_rmse", "frame_ms")
+            lines = [["", *columns]]
+            for row in cell:
+                mark = "*" if row in front else ""
+                lines.append([mark, *(format_value(row.get(key)) for key in columns)])
             widths = [max(map(len, column)) for column in zip(*lines, strict=True)]
             blocks.append("\n".join([cell_title(cell[0]), *(_line(line, widths) for line in lines)]))
         return "\n\n".join(blocks)
@@ -233,9 +239,10 @@ def format_value(value: Any) -> str:
     return f"{value:.4g}" if isinstance(value, float) else str(value)
 
 
-def _line(words: Iterable[str], widths: Sequence[int]) -> str:
-    first, *rest = zip(words, widths, strict=True)
-    return "  ".join([f"  {first[0]:<{first[1]}}", *(f"{word:>{width}}" for word, width in rest)])
+def _line(words: Sequence[str], widths: Sequence[int]) -> str:
+    mark, first, *rest = words
+    numbers = [f"{word:>{width}}" for word, width in zip(rest, widths[2:], strict=True)]
+    return "  ".join([f" {mark:1} {first:<{widths[1]}}", *numbers]).rstrip()
 
 
 def _write_text(path: str | os.PathLike[str], text: str) -> None:
