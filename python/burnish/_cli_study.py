@@ -205,6 +205,8 @@ def _measure(options: argparse.Namespace) -> "Study":
 
 
 def _write(study: "Study", options: argparse.Namespace) -> None:
+    from burnish.study.findings import list_findings
+
     if options.json:
         study.save_json(options.json)
     if options.csv:
@@ -216,8 +218,7 @@ def _write(study: "Study", options: argparse.Namespace) -> None:
     if options.quiet:
         return
     print(study.format_table())
-    for note in study.notes:
-        print(f"note: {note}")
+    print("", *list_findings(study), "", sep="\n")
     for name in _outputs(options):
         print(f"wrote {name}")
 

@@ -9,8 +9,9 @@ from typing import Any
 from urllib.parse import urlsplit
 
 from burnish.study.extras import missing_extra
-from burnish.study.journal import Journal, Row
+from burnish.study.journal import Journal
 from burnish.study.measure import Cell, measure_cell
+from burnish.study.rows import Row
 from burnish.study.runner import (
     StudyInterrupted,
     collect,

@@ -7,6 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from burnish.study.metrics import display_scale, display_values, signed_difference
+from burnish.study.rows import cell_title
 from burnish.study.store import CellPictures
 
 Box = tuple[slice, slice]
@@ -76,7 +77,6 @@ def difference_figure(cells: Sequence[CellPictures], rows: Mapping[str, Any]) ->
     figure : matplotlib.figure.Figure
     """
     from burnish.study.plots import new_figure
-    from burnish.study.study import cell_title
 
     if not cells:
         raise ValueError("plot: expected a study that kept its pictures, got none")

@@ -3,11 +3,9 @@
 import json
 import os
 from pathlib import Path
-from typing import Any
 
 from burnish.images.files import file_error
-
-Row = dict[str, Any]
+from burnish.study.rows import Row
 
 
 class Journal:

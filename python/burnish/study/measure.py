@@ -10,8 +10,8 @@ from typing import Any
 
 import burnish
 from burnish.study.identity import digest
-from burnish.study.journal import Row
 from burnish.study.metrics import Errors, measure_errors
+from burnish.study.rows import Row
 from burnish.study.sampler_text import sampler_from_text, sampler_parameters, sampler_to_text
 from burnish.study.sources import Source
 from burnish.study.store import PictureStore, StoredPicture

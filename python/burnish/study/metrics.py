@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 
 from burnish.frame import relative_rmse
 from burnish.images.display import srgb_encode
+from burnish.study.extras import missing_extra
 
 FloatArray = NDArray[np.float32]
 Mask = NDArray[np.bool_]
@@ -141,8 +142,6 @@ def flip_map(color: FloatArray, reference: FloatArray, scale: float) -> FloatArr
     try:
         import flip_evaluator
     except ImportError as error:
-        from burnish.study.extras import missing_extra
-
         raise missing_extra("flip-evaluator", "study", "FLIP") from error
     shown = [np.ascontiguousarray(srgb_encode(display_values(image, scale))) for image in (reference, color)]
     errors, _, _ = flip_evaluator.evaluate(*shown, "LDR", True, False, True, {})

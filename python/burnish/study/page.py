@@ -15,9 +15,11 @@ from PIL import Image
 
 import burnish
 from burnish.study.differences import difference_figure, display_picture
-from burnish.study.journal import Row
+from burnish.study.findings import list_findings
 from burnish.study.metrics import display_scale
+from burnish.study.pareto import pareto_front
 from burnish.study.plots import ERROR_LABELS, Kind, curves_figure
+from burnish.study.rows import Row, cell_title, format_value
 from burnish.study.store import CellPictures
 
 if TYPE_CHECKING:
@@ -75,7 +77,7 @@ def make_page(study: "Study") -> str:
     pictures = [cell for cell in study.pictures if cell.pictures]
     return template.substitute(
         facts=_facts(study),
-        findings=_findings(study),
+        findings="".join(f"<li>{_escape(line)}</li>" for line in list_findings(study)),
         width="wide" if len(study.cells()) > 1 else "narrow",
         curves="".join(_curve(study, *curve) for curve in CURVES),
         comparisons=_section("Compare", COMPARE_NOTE, [_comparison(*pair) for pair in enumerate(pictures)]),
@@ -116,33 +118,6 @@ def _all_values(rows: Sequence[Row], key: str) -> str:
     return ", ".join(dict.fromkeys(str(row[key]) for row in rows))
 
 
-def _findings(study: "Study") -> str:
-    """Say in words what was best, and what the reader must not overlook."""
-    from burnish.study.study import cell_title, format_value
-
-    lines = []
-    for cell in study.cells():
-        measured = [row for row in cell if row["relative_rmse"] is not None]
-        if not measured:
-            continue
-        best = min(measured, key=lambda row: row["relative_rmse"])
-        least, time = format_value(best["relative_rmse"]), format_value(best["frame_ms"])
-        title = cell_title(cell[0])
-        lines.append(f"{title}: {best['sampler']} has the least error, {least} relative RMSE in {time} ms.")
-        noise = max(row["reference_standard_error"] for row in cell)
-        if noise > best["relative_rmse"] / 3:
-            lines.append(
-                f"Careful: the reference's own standard error there, {format_value(noise)}, is more than a "
-                "third of the least error; a finer reference is needed to rank what is near it."
-            )
-    if any(row["flip"] is None and row["height"] > 1 for row in study.rows):
-        lines.append("FLIP is missing: the package flip-evaluator was not installed.")
-    warnings = dict.fromkeys(warning for row in study.rows for warning in row["warnings"])
-    lines += study.notes
-    lines += [f"The renderer warned: {warning}" for warning in warnings]
-    return "".join(f"<li>{_escape(line)}</li>" for line in lines)
-
-
 def _data_uri(data: bytes, kind: str = "png") -> str:
     return f"data:image/{kind};base64,{base64.b64encode(data).decode('ascii')}"
 
@@ -167,8 +142,6 @@ def _curve(study: "Study", kind: Kind, error: str, time: str, title: str) -> str
 
 def _comparison(index: int, cell: CellPictures) -> str:
     """Two pictures over one another, each chosen from a list, and a slider between them."""
-    from burnish.study.study import cell_title
-
     truth, covered = cell.reference.color, cell.reference.covered
     scale = display_scale(truth[covered])
     pictures = {"reference": truth, **cell.pictures}
@@ -196,17 +169,12 @@ def _choices(names: Any, chosen: str) -> str:
 
 
 def _difference(cell: CellPictures, names: dict[str, Row]) -> str:
-    from burnish.study.study import cell_title
-
     uri = _figure_uri(difference_figure([cell], names), DIFFERENCE_DPI)
     return f'<figure><img src="{uri}" alt="differences, {_escape(cell_title(cell.cell))}"></figure>'
 
 
 def _table(cell: Sequence[Row], study: "Study") -> str:
     """One table for each cell; rows of the Pareto front are marked."""
-    from burnish.study.pareto import pareto_front
-    from burnish.study.study import cell_title, format_value
-
     head = "".join(f'<th title="{_escape(meaning)}">{_escape(name)}</th>' for _, name, meaning in COLUMNS)
     front = {row["key"] for row in pareto_front(cell, "relative_rmse", "frame_ms")}
     lines = []

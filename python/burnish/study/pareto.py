@@ -3,7 +3,7 @@
 import math
 from collections.abc import Sequence
 
-from burnish.study.journal import Row
+from burnish.study.rows import Row
 
 
 def pareto_front(rows: Sequence[Row], error: str, time: str) -> list[Row]:

@@ -5,8 +5,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
 
 from burnish.study.extras import missing_extra
-from burnish.study.journal import Row
 from burnish.study.pareto import pareto_front
+from burnish.study.rows import Row, cell_title
 
 if TYPE_CHECKING:
     from burnish.study.study import Study
@@ -172,8 +172,6 @@ def curves_figure(cells: Sequence[Sequence[Row]], kind: Kind, error: str, time: 
     -------
     figure : matplotlib.figure.Figure
     """
-    from burnish.study.study import cell_title
-
     columns = min(MOST_COLUMNS, len(cells))
     lines = -(-len(cells) // columns)
     figure = new_figure(PANEL_INCHES[0] * columns, PANEL_INCHES[1] * lines + 0.6)

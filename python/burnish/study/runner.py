@@ -9,10 +9,11 @@ from typing import Any
 from tqdm import tqdm
 
 from burnish._progress import DELAY_S
-from burnish.study.journal import Journal, Row
+from burnish.study.journal import Journal
 from burnish.study.measure import Cell, Step, measure_cell
+from burnish.study.rows import CELL_KEYS, Row
 from burnish.study.store import CellPictures, PictureStore
-from burnish.study.study import CELL_KEYS, Study
+from burnish.study.study import Study
 
 
 class StudyInterrupted(KeyboardInterrupt):

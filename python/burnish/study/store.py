@@ -3,6 +3,7 @@
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
+from zipfile import BadZipFile
 
 import numpy as np
 from numpy.typing import NDArray
@@ -72,7 +73,7 @@ class PictureStore:
         try:
             with np.load(path, allow_pickle=False) as data:
                 picture = StoredPicture(data["color"], data["covered"], float(data["standard_error"]))
-        except (OSError, ValueError, KeyError, EOFError):
+        except (OSError, ValueError, KeyError, EOFError, BadZipFile):
             return None  # whatever befell the file, the picture is drawn again
         self._pictures[key] = picture
         return picture

@@ -9,8 +9,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
 
 from burnish.images.files import file_error, replacing
-from burnish.study.journal import Row
 from burnish.study.pareto import pareto_front
+from burnish.study.rows import Row, cell_of, cell_title, format_value
 from burnish.study.store import CellPictures
 
 if TYPE_CHECKING:
@@ -19,16 +19,8 @@ if TYPE_CHECKING:
 ErrorName = Literal["relative_rmse", "display_rms", "flip", "max_error"]
 TimeName = Literal["frame_ms", "shade_ms", "wall_ms"]
 
-CELL_KEYS = ("scene", "material", "environment", "filter", "height", "width", "spp")
-"""Rows that agree in these were measured together and may be compared."""
-
 FORMAT = 1
 """Of the JSON file; grows when a row changes its meaning."""
-
-
-def cell_of(row: Row) -> tuple[Any, ...]:
-    """Name the cell that a row belongs to."""
-    return tuple(row[key] for key in CELL_KEYS)
 
 
 @dataclass(eq=False)
@@ -223,20 +215,6 @@ TABLE_COLUMNS = (
     "frame_ms",
     "frame_deviation_ms",
 )
-
-
-def cell_title(row: Row) -> str:
-    """Name the cell of a row in one line."""
-    parts = [row["scene"], row["material"], row["environment"], row["filter"]]
-    size = f"{row['width']} x {row['height']}"
-    return " · ".join([*(part for part in parts if part), *([size] if row["height"] > 1 else [])])
-
-
-def format_value(value: Any) -> str:
-    """Write a value as a table shows it: four significant digits, a dash for what is not there."""
-    if value is None:
-        return "-"
-    return f"{value:.4g}" if isinstance(value, float) else str(value)
 
 
 def _line(words: Sequence[str], widths: Sequence[int]) -> str:
