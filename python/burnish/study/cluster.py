@@ -1,6 +1,7 @@
 """Cells measured by the workers of dask.distributed, on this machine or on many."""
 
 import logging
+import signal
 import threading
 from collections import Counter
 from collections.abc import Iterator, Sequence
@@ -76,7 +77,13 @@ def _connect(scheduler: str | None, workers: int) -> Iterator[Any]:
         LocalCluster(**local, silence_logs=logging.CRITICAL) as cluster,
         Client(cluster, set_as_default=False) as client,
     ):
+        client.register_worker_callbacks(_ignore_interrupts)
         yield client
+
+
+def _ignore_interrupts() -> None:
+    """Let Ctrl-C, which a terminal sends to all processes, end the study here and not its workers."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
 
 
 def _shared_machines(client: Any) -> list[str]:
