@@ -16,7 +16,7 @@ from burnish.study.rows import Row
 from burnish.study.runner import (
     StudyInterrupted,
     collect,
-    forget_cell,
+    forget_reference,
     missing_samplers,
     step_bar,
 )
@@ -30,6 +30,7 @@ RETRIES = 1
 # One process may have several worker threads; two cells at the same time would spoil each other's times.
 _one_at_a_time = threading.Lock()
 _worker_store = PictureStore()
+_finished_cells: list[Cell] = []
 
 
 def measure_remotely(
@@ -54,10 +55,16 @@ def measure_remotely(
         By sampler, and ``reference``; empty if they are not wanted.
     """
     with _one_at_a_time:
-        rows = measure_cell(cell, samplers, _worker_store, lambda count, what: None).rows
-        keys = {"reference": cell.reference_key(), **{text: cell.picture_key(text) for text in samplers}}
-        found = {name: _worker_store.get(key) for name, key in keys.items()} if wants_pictures else {}
-        forget_cell(_worker_store, cell, [])
+        while _finished_cells:  # the reference of the cell before may serve this one as well
+            forget_reference(_worker_store, _finished_cells.pop(), [cell])
+        rows = measure_cell(cell, samplers, _worker_store, lambda count, what: None, wants_pictures).rows
+        _finished_cells.append(cell)
+        keys = {text: cell.picture_key(text) for text in samplers} if wants_pictures else {}
+        found = {name: _worker_store.get(key) for name, key in keys.items()}
+        for key in keys.values():
+            _worker_store.forget(key)
+        if wants_pictures:
+            found["reference"] = _worker_store.get(cell.reference_key())
     return rows, {name: picture for name, picture in found.items() if picture is not None}
 
 

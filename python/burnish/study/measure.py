@@ -87,7 +87,9 @@ def _find_reference(cell: Cell, subject: Subject, store: PictureStore, step: Ste
     return reference
 
 
-def measure_cell(cell: Cell, samplers: Sequence[str], store: PictureStore, step: Step) -> Measured:
+def measure_cell(
+    cell: Cell, samplers: Sequence[str], store: PictureStore, step: Step, keeps_pictures: bool = True
+) -> Measured:
     """Draw, judge and time.
 
     Parameters
@@ -97,9 +99,11 @@ def measure_cell(cell: Cell, samplers: Sequence[str], store: PictureStore, step:
     samplers : sequence of str
         Those of the cell's that are still missing.
     store : PictureStore
-        Holds the reference afterwards, and every sampler's picture.
+        Holds the reference afterwards, and every sampler's picture if they are kept.
     step : callable
         Called after each drawing, and now and then during the reference's.
+    keeps_pictures : bool
+        Whether the samplers' pictures are worth keeping.
 
     Returns
     -------
@@ -121,7 +125,8 @@ def measure_cell(cell: Cell, samplers: Sequence[str], store: PictureStore, step:
         # The warm-up: it compiles what the sampler needs. Its values are those of every later run.
         shot = shots[text] = subject.draw(sampler)
         errors[text] = measure_errors(shot.color, reference.color, reference.covered)
-        store.put(cell.picture_key(text), StoredPicture(shot.color, shot.covered))
+        if keeps_pictures:
+            store.put(cell.picture_key(text), StoredPicture(shot.color, shot.covered))
         step(1, text)
 
     def run(sampler: Any) -> Mapping[str, float]:

@@ -15,6 +15,8 @@ from burnish.study.rows import CELL_KEYS, Row
 from burnish.study.store import CellPictures, PictureStore
 from burnish.study.study import Study
 
+WITHOUT_PICTURES = "Some rows come from a journal that kept no pictures of them."
+
 
 class StudyInterrupted(KeyboardInterrupt):
     """Ctrl-C came; ``study`` holds the rows that were finished before.
@@ -80,18 +82,25 @@ def collect(
     """
     rows: list[Row] = []
     pictures: list[CellPictures] = []
+    has_all = True
     for cell in cells:
         found = {text: journal.find(cell.row_key(text)) for text in cell.samplers}
         cell_rows = {text: row for text, row in found.items() if row is not None}
         rows += cell_rows.values()
         reference = store.get(cell.reference_key()) if store is not None else None
-        if store is None or not cell_rows or reference is None or reference.color.ndim != 3:
+        if store is None or not cell_rows:
             continue
+        if reference is None:
+            has_all = False
+            continue
+        if reference.color.ndim != 3:
+            continue  # points make no picture
         drawn = {text: store.get(cell.picture_key(text)) for text in cell_rows}
         description: dict[str, Any] = {key: next(iter(cell_rows.values()))[key] for key in CELL_KEYS}
         colors = {text: picture.color for text, picture in drawn.items() if picture is not None}
         pictures.append(CellPictures(description, reference, colors))
-    return Study(rows, pictures, command, list(notes))
+        has_all = has_all and len(colors) == len(cell_rows)
+    return Study(rows, pictures, command, [*notes, *([] if has_all else [WITHOUT_PICTURES])])
 
 
 def run_cells(
@@ -113,7 +122,7 @@ def run_cells(
     store : PictureStore
         References and pictures.
     keeps_pictures : bool
-        False: pictures are dropped from memory as soon as they are judged.
+        False: a picture is dropped as soon as it is judged, and a reference when the next cell has another.
     shows_progress : bool
         Whether a bar is shown on a terminal.
     command : str
@@ -136,22 +145,20 @@ def run_cells(
             for index, (cell, samplers) in enumerate(zip(cells, missing, strict=True)):
                 if not samplers:
                     continue
-                measured = measure_cell(cell, samplers, store, advance)
+                measured = measure_cell(cell, samplers, store, advance, keeps_pictures)
                 for row in measured.rows:
                     journal.append(row)
                 if not measured.is_complete:
                     raise KeyboardInterrupt
                 if not keeps_pictures:
-                    forget_cell(store, cell, cells[index + 1 : index + 2])
+                    forget_reference(store, cell, cells[index + 1 : index + 2])
     except KeyboardInterrupt as interruption:
         raise StudyInterrupted(collect(cells, journal, pictures, command)) from interruption
     return collect(cells, journal, pictures, command)
 
 
-def forget_cell(store: PictureStore, cell: Cell, following: Sequence[Cell]) -> None:
-    """Drop a cell's pictures, and its reference unless the next cell has the same."""
-    for text in cell.samplers:
-        store.forget(cell.picture_key(text))
+def forget_reference(store: PictureStore, cell: Cell, following: Sequence[Cell]) -> None:
+    """Drop a cell's reference from memory, unless one of the following has the same."""
     if not any(cell.reference_key() == other.reference_key() for other in following):
         store.forget(cell.reference_key())
 

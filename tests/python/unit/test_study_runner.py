@@ -58,10 +58,23 @@ def test_cells_that_share_a_reference_draw_it_once():
         assert (one.drawn.count(0), two.drawn.count(0)) == (1, 0)
 
 
-def test_pictures_that_are_not_kept_leave_the_memory():
-    store = PictureStore()
-    run([make_cell(FakeSubject("one")), make_cell(FakeSubject("two"))], store=store, keeps_pictures=False)
+def test_pictures_that_are_not_kept_are_nowhere(tmp_path):
+    store = PictureStore(tmp_path)
+    cells = [make_cell(FakeSubject("one")), make_cell(FakeSubject("two"))]
+    run(cells, store=store, keeps_pictures=False)
     assert not store._pictures
+    # references are dear, so their files stay
+    assert {path.stem for path in tmp_path.iterdir()} == {cell.reference_key() for cell in cells}
+
+
+def test_pictures_that_a_journal_lacks_are_said_to(tmp_path):
+    cells = [make_cell(FakeSubject())]
+    journal, store = Journal(tmp_path / "j.jsonl"), PictureStore(tmp_path)
+    assert run(cells, journal, store, keeps_pictures=False).notes == []
+    study = run(cells, Journal(tmp_path / "j.jsonl"), store)
+    assert study.notes == ["Some rows come from a journal that kept no pictures of them."]
+    assert study.pictures[0].pictures == {}
+    assert run([make_cell(FakeSubject("other"))], keeps_pictures=True).notes == []
 
 
 @pytest.mark.parametrize("with_pictures", [True, False])
@@ -82,7 +95,7 @@ def test_a_journal_takes_up_where_it_stopped(tmp_path, with_pictures):
     idle = FakeSubject()
     again = run([make_cell(idle)], Journal(path), open_store())
     assert idle.drawn == [] and again.rows == study.rows
-    assert bool(again.pictures) == with_pictures
+    assert bool(again.pictures) == with_pictures and bool(again.notes) == (not with_pictures)
 
 
 def test_more_runs_are_measured_anew(tmp_path):
