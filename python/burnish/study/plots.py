@@ -73,7 +73,9 @@ def _draw_curves(
     axes: Any, rows: Sequence[Row], styles: dict[str, Any], x: str, y: str, labels: bool
 ) -> None:
     for method, style in styles.items():
-        points = sorted(_usable([row for row in rows if row["method"] == method], x, y), key=lambda r: r[x])
+        # A curve goes from few samples to many, also where noise puts their times in another order.
+        own = [row for row in rows if row["method"] == method]
+        points = sorted(_usable(own, x, y), key=lambda row: row["samples"] or 0)
         if not points:
             continue
         xs, ys = [row[x] for row in points], [row[y] for row in points]

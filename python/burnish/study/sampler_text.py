@@ -93,18 +93,6 @@ def _value(text: str) -> int | float | str:
     return text
 
 
-def _base_sampler(words: list[str]) -> Any:
-    """Read the command line's form, or a sampler of the engine that the command line has no form for."""
-    name, *options = words
-    kind = getattr(_core, name.capitalize(), None)
-    if name in ("regular", "importance", "reference") or kind is None or len(options) > 1:
-        return parse_sampler(":".join(words))
-    try:
-        return parse_sampler(":".join(words))
-    except ValueError:
-        return kind(int(options[0])) if options else kind()
-
-
 def sampler_from_text(text: str) -> Any:
     """Make the sampler that a text names.
 
@@ -119,7 +107,7 @@ def sampler_from_text(text: str) -> Any:
         If there is no such sampler or parameter, or a value is out of its range.
     """
     parts = text.split(":")
-    sampler = _base_sampler([part for part in parts if "=" not in part])
+    sampler = parse_sampler(":".join(part for part in parts if "=" not in part))
     given = dict(part.split("=", 1) for part in parts if "=" in part)
     if not given:
         return sampler
