@@ -2,13 +2,14 @@
 
 import os
 import sys
+import time
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from typing import Any
 
 from tqdm import tqdm
 
-from burnish._progress import DELAY_S
+from burnish._progress import DELAY_S, REFRESH_S
 from burnish.study.journal import Journal
 from burnish.study.measure import Cell, Step, measure_cell
 from burnish.study.rows import CELL_KEYS, Row
@@ -45,9 +46,15 @@ def step_bar(steps: int, is_shown: bool) -> Iterator[Step]:
         file=sys.stderr,
     )
 
+    shown = time.monotonic() + DELAY_S - REFRESH_S
+
     def advance(count: int, what: str) -> None:
+        nonlocal shown
         bar.set_postfix_str(what, refresh=False)
         bar.update(count)
+        if time.monotonic() - shown >= REFRESH_S:  # the bar alone waits for as many pictures as there were
+            bar.refresh()
+            shown = time.monotonic()
 
     with bar:
         yield advance
