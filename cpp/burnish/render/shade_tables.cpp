@@ -24,7 +24,8 @@ SampleTable build_table(const Sampler& sampler, TableForm form, glm::vec2 roughn
 
 bool needs_albedo(const Sampler& sampler) {
     const auto* regular = std::get_if<Regular>(&sampler);
-    return regular && regular->normalization == Normalization::furnace;
+    return (regular && regular->normalization == Normalization::furnace) ||
+           std::holds_alternative<Prefiltered>(sampler);
 }
 
 /// Appends tables to one buffer, each once.
@@ -169,7 +170,9 @@ ShadeTables make_shade_tables(const vulkan::DevicePointer& device, const Scene& 
         for (uint32_t which = 0; which < traits.lobe_count; ++which) {
             const KurtLobe lobe = lobe_of(material, which, traits);
             shared::LobeRecord record = lobe_record(lobe);
-            if (traits.table != TableForm::none) {
+            if (traits.table == TableForm::prefiltered) {
+                counts[instance.shade_class].insert(1);
+            } else if (traits.table != TableForm::none) {
                 const auto samples = writer.samples(traits.table, lobe.roughness, face_size);
                 record.table_begin = samples.begin;
                 record.table_count = samples.count;
