@@ -6,6 +6,7 @@
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
+#include "shared/prefilter.h"
 #include "shared/pyramid.h"
 #include "shared/records.h"
 
@@ -67,6 +68,10 @@ std::map<std::string, Layout> shared_layout() {
           FIELD(PyramidRecord, source_size), FIELD(PyramidRecord, target_begin),
           FIELD(PyramidRecord, target_pitch), FIELD(PyramidRecord, pad0), FIELD(PyramidRecord, pad1),
           FIELD(PyramidRecord, pad2)}},
+        {"PrefilterRecord",
+         {FIELD(PrefilterRecord, cube), FIELD(PrefilterRecord, size), FIELD(PrefilterRecord, texel_begin),
+          FIELD(PrefilterRecord, sample_begin), FIELD(PrefilterRecord, sample_count),
+          FIELD(PrefilterRecord, pad0), FIELD(PrefilterRecord, pad1), FIELD(PrefilterRecord, pad2)}},
         {"TexelAlias",
          {FIELD(TexelAlias, threshold), FIELD(TexelAlias, alias), FIELD(TexelAlias, probability),
           FIELD(TexelAlias, pad0)}},

@@ -1,4 +1,4 @@
-// Shades surface points by patterns of half-vectors: regular sampling and filtered importance sampling.
+// Shades surface points by patterns of half-vectors (regular sampling and filtered importance sampling) or by prefiltered maps.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
@@ -6,6 +6,7 @@
 #include "lib/spherical_harmonics.glsl"
 #include "shade/lobe.glsl"
 #include "shade/matched.glsl"
+#include "shade/prefiltered.glsl"
 #include "shade/surface_point.glsl"
 
 vec3 shade_lobe(PointToShade point, MapRecord map, uint lobe_index, uint which) {
@@ -22,6 +23,7 @@ vec3 shade_lobe(PointToShade point, MapRecord map, uint lobe_index, uint which) 
     v.area_term = published_area_term(v.local_o);
     v.threshold_log = record.threshold_log;
     v.layer = float(map.layer);
+    if (TABLE == TABLE_PREFILTERED) return shade_prefiltered(v, lobe, record, float(map.face_size));
 
     LobeSums sums;
     if (TABLE == TABLE_MATCHED)

@@ -122,6 +122,7 @@ std::string describe(const ShadeClass& one, const Scene& scene, const Plan& plan
         break;
     case TableForm::prefiltered:
         text += "; one lookup a lobe in a prefiltered map";
+        if (one.traits.has_tangent) text += ", brushed lobes as the round ones of slope sqrt(mx my)";
         break;
     }
     return text;
@@ -198,6 +199,8 @@ void add_pass_lines(Plan& plan) {
         add("pyramid",
             message(pyramid_filter_name(plan.settings.filter), " levels of ", plan.environments.size(),
                     plan.environments.size() == 1 ? " map" : " maps", ", once per map"));
+    if (has_lookups && std::holds_alternative<Prefiltered>(plan.settings.sampler))
+        add("prefilter", "each level the map as one roughness sees it, for one lookup a lobe, once per map");
     add("surface", plan.has_varying
                        ? "rasterises into the wide G-buffer: textures or vertex colours vary over a surface"
                        : "rasterises into 8 bytes a pixel and depth");

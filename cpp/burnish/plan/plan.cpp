@@ -198,6 +198,9 @@ Plan make_plan(const Scene& scene, const PlanSettings& settings) {
     add_map_sets(plan);
     add_classes(scene, plan);
     if (!scene.environment) plan.warnings.push_back("the scene has no environment: only emission is seen");
+    if (plan.has_tangent && std::holds_alternative<Prefiltered>(settings.sampler))
+        plan.warnings.push_back(
+            "prefiltered maps are round: brushed lobes reflect as the round ones of slope sqrt(mx my)");
     add_effect_lines(scene, plan);
     add_pass_lines(plan);
     return plan;

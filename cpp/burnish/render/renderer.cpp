@@ -55,17 +55,20 @@ std::vector<std::shared_ptr<EnvironmentMaps>> Renderer::prepare_maps(const Plan&
         return std::any_of(cached.environments.begin(), cached.environments.end(),
                            [](const auto& one) { return one.expired(); });
     });
-    const bool has_pyramid = std::any_of(plan.passes.begin(), plan.passes.end(),
-                                         [](const PassLine& line) { return line.name == "pyramid"; });
+    const auto has_pass = [&](const char* name) {
+        return std::any_of(plan.passes.begin(), plan.passes.end(),
+                           [&](const PassLine& line) { return line.name == name; });
+    };
     const std::optional<PyramidFilter> filter =
-        has_pyramid ? std::optional(plan.settings.filter) : std::nullopt;
+        has_pass("pyramid") ? std::optional(plan.settings.filter) : std::nullopt;
+    const bool is_prefiltered = has_pass("prefilter");
     std::vector<std::shared_ptr<EnvironmentMaps>> result;
     for (const MapSet& set : plan.map_sets) {
         std::vector<std::shared_ptr<const Environment>> environments;
         for (const uint32_t k : set.environments)
             environments.push_back(plan.environments[k]);
         const auto found = std::find_if(maps_.begin(), maps_.end(), [&](const CachedMaps& cached) {
-            return (cached.filter == filter || !filter) &&
+            return (!filter || (cached.filter == filter && cached.is_prefiltered == is_prefiltered)) &&
                    std::equal(cached.environments.begin(), cached.environments.end(), environments.begin(),
                               environments.end(),
                               [](const auto& one, const auto& other) { return one.lock() == other; });
@@ -74,12 +77,18 @@ std::vector<std::shared_ptr<EnvironmentMaps>> Renderer::prepare_maps(const Plan&
             result.push_back(found->maps);
             continue;
         }
-        const auto maps = std::make_shared<EnvironmentMaps>(device_, pyramid_, environments, filter);
+        const auto maps = std::make_shared<EnvironmentMaps>(device_, pyramid_, environments, filter,
+                                                            is_prefiltered ? &prefilter() : nullptr);
         add_pass_times(times, maps->pass_times());
-        maps_.push_back({{environments.begin(), environments.end()}, filter, maps});
+        maps_.push_back({{environments.begin(), environments.end()}, filter, is_prefiltered, maps});
         result.push_back(maps);
     }
     return result;
+}
+
+Prefilter& Renderer::prefilter() {
+    if (!prefilter_) prefilter_ = std::make_unique<Prefilter>(device_);
+    return *prefilter_;
 }
 
 GpuScene& Renderer::prepare_scene(const Scene& scene) {
@@ -294,6 +303,15 @@ std::vector<std::vector<float>> Renderer::pyramid(const std::shared_ptr<const En
                                                   std::vector<vulkan::PassTime>* times) {
     const std::lock_guard lock(mutex_);
     EnvironmentMaps maps(device_, pyramid_, std::span(&environment, 1), filter);
+    if (times) *times = maps.pass_times();
+    return maps.read_levels(0);
+}
+
+std::vector<std::vector<float>> Renderer::prefiltered(const std::shared_ptr<const Environment>& environment,
+                                                      PyramidFilter filter,
+                                                      std::vector<vulkan::PassTime>* times) {
+    const std::lock_guard lock(mutex_);
+    EnvironmentMaps maps(device_, pyramid_, std::span(&environment, 1), filter, &prefilter());
     if (times) *times = maps.pass_times();
     return maps.read_levels(0);
 }

@@ -225,7 +225,9 @@ ShadeTables make_shade_tables(const vulkan::DevicePointer& device, const Scene& 
                 record.texel_factor = float(face_size) * float(face_size) /
                                       (2.0f * lookup_variance(plan.settings.filter));
                 counts[instance.shade_class].insert(matched->samples);
-            } else if (traits.table != TableForm::none && traits.table != TableForm::prefiltered) {
+            } else if (traits.table == TableForm::prefiltered) {
+                counts[instance.shade_class].insert(1);
+            } else if (traits.table != TableForm::none) {
                 const auto samples = writer.samples(traits.table, lobe.roughness, face_size);
                 record.table_begin = samples.begin;
                 record.table_count = samples.count;

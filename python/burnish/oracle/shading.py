@@ -11,6 +11,7 @@ from .arrays import Array, as_array
 from .cube_map import pad_cube
 from .estimator import local_frame, shade_diffuse, shade_lobe
 from .kurt_lobe import LobeLike
+from .prefiltered import shade_prefiltered
 from .reference import shade_reference
 from .spherical_harmonics import project_cube
 
@@ -37,9 +38,9 @@ def shade(
     Parameters
     ----------
     env_levels : list of (6, n, n, 3)
-        From `build_pyramid`.
+        From `build_pyramid`; for Prefiltered from `prefilter_environment`.
     material : Material, or `burnish.Material`
-    sampler : Regular, Importance or Reference, the oracle's or burnish's
+    sampler : Regular, Importance, Prefiltered or Reference, the oracle's or burnish's
     normals, tangents, views : (..., 3)
 
     Returns
@@ -56,7 +57,8 @@ def shade(
             total = total + light * conserving_scale(normals, tangents, views, lobe)
     elif material.lobes:
         cube = pad_cube(env_levels)
+        shade_one = shade_prefiltered if type(sampler).__name__ == "Prefiltered" else shade_lobe
         for lobe in material.lobes:
-            light = shade_lobe(cube, normals, tangents, views, lobe, sampler)
+            light = shade_one(cube, normals, tangents, views, lobe, sampler)
             total = total + light * conserving_scale(normals, tangents, views, lobe)
     return total + as_array(getattr(material, "emissive", 0.0))
