@@ -1,5 +1,6 @@
-// One level of a prefiltered map (shared/prefilter.h) by filtered importance sampling of the map's pyramid:
-//   L(n) = sum w_k L(i_k) / sum w_k,  w = cos_i / cos_h,  half-vectors of density D cos_h, seen along the normal: o = n.
+// One level of a prefiltered map (shared/prefilter.h) by lookups of the map's pyramid, L(n) = sum w_k L(i_k) / sum w_k:
+// a lobe's by filtered importance sampling, w = cos_i / cos_h, half-vectors of density D cos_h, seen along the normal, o = n;
+// a Gaussian's by a mixture of the matched sampler.
 // One invocation makes one texel; z counts faces.
 #version 460
 #extension GL_GOOGLE_include_directive : require
@@ -12,9 +13,11 @@
 
 layout(local_size_x = 64) in;
 
+layout(constant_id = SPEC_PREFILTER_IS_SPHERICAL) const bool IS_SPHERICAL = false;
+
 layout(push_constant) uniform Push { PrefilterRecord record; };
 layout(binding = BINDING_PREFILTER_PYRAMID) uniform samplerCubeArray pyramid;
-// As of importance sampling: see SampleTable in cpp/burnish/sampling/sample_table.h.
+// See build_prefilter_table and build_spherical_table in cpp/burnish/sampling/prefilter_table.h.
 layout(std430, binding = BINDING_PREFILTER_SAMPLES) readonly buffer Samples { vec4 samples[]; };
 // Half RGBA.
 layout(std430, binding = BINDING_PREFILTER_TEXELS) writeonly buffer Texels { uvec2 texels[]; };
@@ -31,8 +34,16 @@ Lookup place_lookup(mat3 frame, vec4 entry) {
     Lookup lookup;
     lookup.direction = (2.0 * c - 1.0) * frame[2] + (2.0 * c) * (entry.x * frame[0] + entry.y * frame[1]);
     vec3 a = abs(lookup.direction);
-    lookup.level = mip_level(texels_exact(entry.w, 1.0, max(max(a.x, a.y), a.z)));
-    lookup.weight = entry.z * max(2.0 * c - 1.0, 0.0);
+    float largest = max(max(a.x, a.y), a.z);
+    if (IS_SPHERICAL) {
+        // A lookup of width sigma in (u, v) is r^-2 sigma by r^-1 sigma wide on the sphere: 2/(r^-4 + r^-2), r = 1/largest.
+        float x = largest * largest;
+        lookup.level = mip_level(2.0 * entry.w / (x * (x + 1.0)));
+        lookup.weight = entry.z;
+    } else {
+        lookup.level = mip_level(texels_exact(entry.w, 1.0, largest));
+        lookup.weight = entry.z * max(2.0 * c - 1.0, 0.0);
+    }
     return lookup;
 }
 

@@ -15,6 +15,13 @@ SHARED_CONST float PREFILTER_SLOPE = 3.0f;
 // The same for level 0: a bilinear lookup of the map itself has a variance of 1/4 texel^2, as a lobe of slope sqrt(1/2)/n.
 SHARED_CONST float PREFILTER_MAP_SLOPE = 0.70710678f;
 
+// The other kind, for the matched sampler: a level of n texels is the map under a Gaussian of variance .75 (2/n)^2 per axis of
+// angle, the same everywhere on the sphere. A lookup at level l then has SPHERICAL_VARIANCE 4^l (2/N)^2: bilinear interpolation
+// adds 1/6 in the middle of a face, and half of that toward its corners.
+SHARED_CONST float SPHERICAL_LEVEL_VARIANCE = 0.75f;
+SHARED_CONST float SPHERICAL_VARIANCE = 0.85f;
+
+SHARED_CONST uint SPEC_PREFILTER_IS_SPHERICAL = 0u;
 SHARED_CONST uint BINDING_PREFILTER_PYRAMID = 0u;
 SHARED_CONST uint BINDING_PREFILTER_SAMPLES = 1u;
 SHARED_CONST uint BINDING_PREFILTER_TEXELS = 2u;

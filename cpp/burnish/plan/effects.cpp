@@ -118,7 +118,7 @@ std::string describe(const ShadeClass& one, const Scene& scene, const Plan& plan
         text += "; mixtures placed at every point by the lobe's aspect on the map";
         break;
     case TableForm::matched_by_view:
-        text += "; wide round lobes, mixtures placed for every view when the material changes";
+        text += "; round lobes, mixtures placed for every view when the material changes";
         break;
     case TableForm::prefiltered:
         text += "; one lookup a lobe in a prefiltered map";
@@ -201,6 +201,8 @@ void add_pass_lines(Plan& plan) {
                     plan.environments.size() == 1 ? " map" : " maps", ", once per map"));
     if (has_lookups && std::holds_alternative<Prefiltered>(plan.settings.sampler))
         add("prefilter", "each level the map as one roughness sees it, for one lookup a lobe, once per map");
+    if (has_lookups && std::holds_alternative<Matched>(plan.settings.sampler))
+        add("prefilter", "levels that are round on the sphere, so that a lookup has one width everywhere, once per map");
     add("surface", plan.has_varying
                        ? "rasterises into the wide G-buffer: textures or vertex colours vary over a surface"
                        : "rasterises into 8 bytes a pixel and depth");

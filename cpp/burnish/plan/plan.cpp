@@ -75,16 +75,17 @@ bool fits_into_constants(const Sampler& sampler) {
 /// Slope from which a component of a mixture bends so much that its mean takes nine points (measured: maths, section 6).
 constexpr float WIDE_LOBE = 0.2f;
 
-/// Round wide lobes look up no map so narrowly that the metric of its faces matters: their lookups depend on the
-/// view alone. Narrow and brushed ones are placed at every point, textured ones with as many points as wide lobes
-/// need.
+/// Lookups of round lobes depend on the angle of view alone. Brushed and textured ones are placed at every point, with
+/// as many points a component as the widest lobe needs.
 TableForm matched_form(const Material& material, ShadeTraits& traits) {
-    const auto is_wide = [](const KurtLobe& lobe) {
-        return !lobe.is_anisotropic() && lobe.roughness.x > WIDE_LOBE;
+    const auto any = [&](const auto& asks) {
+        return std::any_of(material.lobes.begin(), material.lobes.end(), asks);
     };
-    traits.has_wide_components = traits.has_varying;
-    if (!traits.has_varying && std::all_of(material.lobes.begin(), material.lobes.end(), is_wide))
+    if (!traits.has_varying && !any([](const KurtLobe& lobe) { return lobe.is_anisotropic(); }))
         return TableForm::matched_by_view;
+    traits.has_wide_components = traits.has_varying || any([](const KurtLobe& lobe) {
+                                     return std::min(lobe.roughness.x, lobe.roughness.y) > WIDE_LOBE;
+                                 });
     return TableForm::matched;
 }
 

@@ -35,7 +35,7 @@ uint32_t common_face_size(EnvironmentSpan environments, uint32_t most_layers) {
 
 EnvironmentMaps::EnvironmentMaps(std::shared_ptr<const vulkan::Device> device, Pyramid& pyramid,
                                  EnvironmentSpan environments, std::optional<PyramidFilter> filter,
-                                 Prefilter* prefilter) {
+                                 Prefilter* prefilter, PrefilterKernel kernel) {
     const uint32_t face_size = common_face_size(environments, device->limits().maxImageArrayLayers);
     if (prefilter && !filter)
         throw std::invalid_argument("filter: expected one, from whose pyramid to prefilter, got none");
@@ -70,7 +70,7 @@ EnvironmentMaps::EnvironmentMaps(std::shared_ptr<const vulkan::Device> device, P
     if (prefilter) {
         prefiltered = vulkan::Image(device, settings);
         commands.begin_pass("prefilter");
-        prefilter->record(commands, image_, prefiltered);
+        prefilter->record(commands, image_, prefiltered, kernel, *filter);
         commands.end_pass();
     }
     commands.submit();

@@ -21,7 +21,8 @@ public:
     /// prefiltered maps are to come without a filter, or if the device's images have too few layers.
     EnvironmentMaps(std::shared_ptr<const vulkan::Device> device, Pyramid& pyramid,
                     std::span<const std::shared_ptr<const Environment>> environments,
-                    std::optional<PyramidFilter> filter, Prefilter* prefilter = nullptr);
+                    std::optional<PyramidFilter> filter, Prefilter* prefilter = nullptr,
+                    PrefilterKernel kernel = PrefilterKernel::lobe);
 
     /// In SHADER_READ_ONLY_OPTIMAL; view() is the cube array, or the cube where there is one only.
     vulkan::Image& image() { return image_; }

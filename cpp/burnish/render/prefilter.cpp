@@ -23,18 +23,28 @@ VkImageCopy finest_level(const vulkan::ImageSettings& settings) {
 
 Prefilter::Prefilter(std::shared_ptr<const vulkan::Device> device)
     : device_(std::move(device)),
-      pipeline_(device_, vulkan::Shader(device_, "pyramid/prefilter.comp", pyramid_prefilter_comp_spv)),
+      shader_(device_, "pyramid/prefilter.comp", pyramid_prefilter_comp_spv),
       sampler_(device_, {}) {}
 
-const Prefilter::Scratch& Prefilter::scratch(uint32_t face_size) {
-    const auto found = scratches_.find(face_size);
+const vulkan::ComputePipeline& Prefilter::pipeline(PrefilterKernel kernel) {
+    const auto found = pipelines_.find(kernel);
+    if (found != pipelines_.end()) return found->second;
+    const auto constants = vulkan::SpecializationConstants{}.set(shared::SPEC_PREFILTER_IS_SPHERICAL,
+                                                                 kernel == PrefilterKernel::spherical);
+    return pipelines_.emplace(kernel, vulkan::ComputePipeline(device_, shader_, constants)).first->second;
+}
+
+const Prefilter::Scratch& Prefilter::scratch(const Key& key) {
+    const auto [face_size, kernel, filter] = key;
+    const auto found = scratches_.find(key);
     if (found != scratches_.end()) return found->second;
     Scratch scratch;
     std::vector<glm::vec4> samples;
     uint32_t texels = 0;
     for (uint32_t level = 1; face_size >> level; ++level) {
-        const SampleTable table = build_prefilter_table(level, face_size);
         const uint32_t size = face_size >> level;
+        const SampleTable table = kernel == PrefilterKernel::lobe ? build_prefilter_table(level, face_size)
+                                                                  : build_spherical_table(size, face_size, filter);
         scratch.levels.push_back({size, texels, static_cast<uint32_t>(samples.size()),
                                   static_cast<uint32_t>(table.entries.size())});
         samples.insert(samples.end(), table.entries.begin(), table.entries.end());
@@ -44,10 +54,11 @@ const Prefilter::Scratch& Prefilter::scratch(uint32_t face_size) {
         vulkan::make_buffer(device_, std::as_bytes(std::span(samples)), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
     scratch.texels =
         vulkan::Buffer(device_, VkDeviceSize{texels} * TEXEL_BYTES, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
-    return scratches_.emplace(face_size, std::move(scratch)).first->second;
+    return scratches_.emplace(key, std::move(scratch)).first->second;
 }
 
-void Prefilter::record(vulkan::Commands& commands, vulkan::Image& pyramid, vulkan::Image& prefiltered) {
+void Prefilter::record(vulkan::Commands& commands, vulkan::Image& pyramid, vulkan::Image& prefiltered,
+                       PrefilterKernel kernel, PyramidFilter filter) {
     const vulkan::ImageSettings& settings = pyramid.settings();
     commands.transition(pyramid, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL);
     commands.transition(prefiltered, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL);
@@ -56,10 +67,11 @@ void Prefilter::record(vulkan::Commands& commands, vulkan::Image& pyramid, vulka
                    prefiltered.layout(), 1, &finest);
     commands.transition(pyramid, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
 
+    const vulkan::ComputePipeline& used = pipeline(kernel);
     for (uint32_t cube = 0; cube < settings.layers / 6 && settings.levels > 1; ++cube) {
-        const Scratch& room = scratch(settings.width);
+        const Scratch& room = scratch({settings.width, kernel, filter});
         if (cube == 0) {
-            set_ = vulkan::DescriptorSet(pipeline_);
+            set_ = vulkan::DescriptorSet(used);
             set_.bind(shared::BINDING_PREFILTER_PYRAMID, pyramid.view_as(VK_IMAGE_VIEW_TYPE_CUBE_ARRAY),
                       sampler_)
                 .bind(shared::BINDING_PREFILTER_SAMPLES, room.samples)
@@ -69,8 +81,8 @@ void Prefilter::record(vulkan::Commands& commands, vulkan::Image& pyramid, vulka
         for (const Level& level : room.levels) {
             const shared::PrefilterRecord push{
                 cube, level.size, level.texel_begin, level.sample_begin, level.sample_count, 0, 0, 0};
-            const uint32_t per_group = pipeline_.local_size()[0];
-            commands.dispatch(pipeline_, set_, vulkan::push_bytes(push),
+            const uint32_t per_group = used.local_size()[0];
+            commands.dispatch(used, set_, vulkan::push_bytes(push),
                               (level.size * level.size + per_group - 1) / per_group, 1, 6);
             VkBufferImageCopy copy{};
             copy.bufferOffset = VkDeviceSize{level.texel_begin} * TEXEL_BYTES;

@@ -1,14 +1,19 @@
-// Prefiltered maps (glsl/shared/prefilter.h): every level the map as one lobe sees it.
+// Maps whose levels are no pyramid (glsl/shared/prefilter.h): every level the map as one lobe sees it, or under a
+// Gaussian that is round on the sphere.
 #pragma once
 
+#include "burnish/sampling/pyramid_filter.h"
 #include "burnish/vulkan/commands.h"
 #include "burnish/vulkan/device.h"
 
 #include <map>
 #include <memory>
+#include <tuple>
 #include <vector>
 
 namespace burnish {
+
+enum class PrefilterKernel { lobe, spherical };
 
 /// Makes prefiltered maps from pyramids. Texels are summed in float32 and rounded to the nearest half, ties
 /// to even. Not for several threads at once.
@@ -20,7 +25,9 @@ public:
     /// arrays of RGBA16F with full levels and of one size; `pyramid` has all of them written, `prefiltered`
     /// gets all of them. Both are in SHADER_READ_ONLY_OPTIMAL afterwards. This object must live, and record
     /// nothing else, until the commands are done.
-    void record(vulkan::Commands& commands, vulkan::Image& pyramid, vulkan::Image& prefiltered);
+    /// `filter` made the pyramid.
+    void record(vulkan::Commands& commands, vulkan::Image& pyramid, vulkan::Image& prefiltered,
+                PrefilterKernel kernel, PyramidFilter filter);
 
 private:
     struct Level {
@@ -35,13 +42,17 @@ private:
         vulkan::Buffer samples, texels;
     };
 
-    const Scratch& scratch(uint32_t face_size);
+    using Key = std::tuple<uint32_t, PrefilterKernel, PyramidFilter>; ///< face size first
+
+    const Scratch& scratch(const Key& key);
+    const vulkan::ComputePipeline& pipeline(PrefilterKernel kernel);
 
     std::shared_ptr<const vulkan::Device> device_;
-    vulkan::ComputePipeline pipeline_;
+    vulkan::Shader shader_;
+    std::map<PrefilterKernel, vulkan::ComputePipeline> pipelines_;
     vulkan::Sampler sampler_;
-    vulkan::DescriptorSet set_;             // of the commands recorded last
-    std::map<uint32_t, Scratch> scratches_; // by face size
+    vulkan::DescriptorSet set_; // of the commands recorded last
+    std::map<Key, Scratch> scratches_;
 };
 
 } // namespace burnish

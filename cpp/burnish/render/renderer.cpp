@@ -61,14 +61,17 @@ std::vector<std::shared_ptr<EnvironmentMaps>> Renderer::prepare_maps(const Plan&
     };
     const std::optional<PyramidFilter> filter =
         has_pass("pyramid") ? std::optional(plan.settings.filter) : std::nullopt;
-    const bool is_prefiltered = has_pass("prefilter");
+    std::optional<PrefilterKernel> kernel;
+    if (has_pass("prefilter"))
+        kernel = std::holds_alternative<Matched>(plan.settings.sampler) ? PrefilterKernel::spherical
+                                                                        : PrefilterKernel::lobe;
     std::vector<std::shared_ptr<EnvironmentMaps>> result;
     for (const MapSet& set : plan.map_sets) {
         std::vector<std::shared_ptr<const Environment>> environments;
         for (const uint32_t k : set.environments)
             environments.push_back(plan.environments[k]);
         const auto found = std::find_if(maps_.begin(), maps_.end(), [&](const CachedMaps& cached) {
-            return (!filter || (cached.filter == filter && cached.is_prefiltered == is_prefiltered)) &&
+            return (!filter || (cached.filter == filter && cached.kernel == kernel)) &&
                    std::equal(cached.environments.begin(), cached.environments.end(), environments.begin(),
                               environments.end(),
                               [](const auto& one, const auto& other) { return one.lock() == other; });
@@ -77,10 +80,10 @@ std::vector<std::shared_ptr<EnvironmentMaps>> Renderer::prepare_maps(const Plan&
             result.push_back(found->maps);
             continue;
         }
-        const auto maps = std::make_shared<EnvironmentMaps>(device_, pyramid_, environments, filter,
-                                                            is_prefiltered ? &prefilter() : nullptr);
+        const auto maps = std::make_shared<EnvironmentMaps>(
+            device_, pyramid_, environments, filter, kernel ? &prefilter() : nullptr, kernel.value_or(PrefilterKernel::lobe));
         add_pass_times(times, maps->pass_times());
-        maps_.push_back({{environments.begin(), environments.end()}, filter, is_prefiltered, maps});
+        maps_.push_back({{environments.begin(), environments.end()}, filter, kernel, maps});
         result.push_back(maps);
     }
     return result;

@@ -72,7 +72,7 @@ private:
     struct CachedMaps {
         std::vector<std::weak_ptr<const Environment>> environments;
         std::optional<PyramidFilter> filter; // none: level 0 alone
-        bool is_prefiltered;
+        std::optional<PrefilterKernel> kernel; // none: a pyramid
         std::shared_ptr<EnvironmentMaps> maps;
     };
 

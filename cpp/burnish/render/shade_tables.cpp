@@ -11,6 +11,7 @@
 #include "burnish/vulkan/device.h"
 #include "burnish/vulkan/transfer.h"
 #include "shared/constants.h"
+#include "shared/prefilter.h"
 
 namespace burnish::render {
 namespace {
@@ -222,8 +223,8 @@ ShadeTables make_shade_tables(const vulkan::DevicePointer& device, const Scene& 
                                          ? writer.view_table(matched->samples, lobe, traits.has_fresnel)
                                          : writer.mixtures(matched->samples);
                 record.table_count = matched->samples;
-                record.texel_factor = float(face_size) * float(face_size) /
-                                      (2.0f * lookup_variance(plan.settings.filter));
+                record.texel_factor =
+                    float(face_size) * float(face_size) / (4.0f * shared::SPHERICAL_VARIANCE);
                 counts[instance.shade_class].insert(matched->samples);
             } else if (traits.table == TableForm::prefiltered) {
                 counts[instance.shade_class].insert(1);

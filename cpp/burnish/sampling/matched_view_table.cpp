@@ -41,12 +41,11 @@ Mean component_mean(const MatchedLobe& lobe, glm::dvec3 omega_o, glm::dvec2 slop
     return mean;
 }
 
-/// Levels that a lookup gains where centres lie far apart against their widths (maths: section 6), as a factor
-/// of its variance.
-double shift_factor(const MatchedLobe& lobe, double rho) {
+/// Levels that a lookup gains where centres lie far apart against their widths (maths: section 6).
+double level_shift(const MatchedLobe& lobe, double rho) {
     const double t = std::min(3.0, rho / lobe.samples);
     const double wide = std::clamp((lobe.roughness - 0.15) / 0.15, 0.0, 1.0);
-    return std::exp2(2.0 * (-0.05 + 0.16 * t + 0.15 * std::max(0.0, t - 1.0) + 0.04 * wide));
+    return -0.05 + 0.16 * t + 0.15 * std::max(0.0, t - 1.0) + 0.04 * wide;
 }
 
 class Row {
@@ -59,7 +58,7 @@ public:
         is_swapped_ = foreshortening_ > 1.0;
         rho_ = is_swapped_ ? foreshortening_ : 1.0 / foreshortening_;
         minor_ = 2.0 * lobe.roughness * std::min(1.0, foreshortening_);
-        shift_ = shift_factor(lobe, rho_);
+        shift_ = level_shift(lobe, rho_);
     }
 
     double rho() const { return rho_; }
@@ -73,7 +72,7 @@ public:
             deviation = {deviation.y, deviation.x};
         }
         const Mean mean = component_mean(lobe_, omega_o_, slope, deviation);
-        if (mean.gain < LEAST_GAIN) return {glm::vec4(0.0f, 0.0f, 0.0f, 1.0f), 0.0f};
+        if (mean.gain < LEAST_GAIN) return {glm::vec4(0.0f), 0.0f};
         const double length = glm::length(mean.direction);
         const glm::dvec3 g(slope, 1.0);
         const double linear = std::pow(mixture.z * minor_, 2.0) * std::max(glm::dot(omega_o_, g), 0.0) /
@@ -83,7 +82,7 @@ public:
         const glm::dvec3 mirror(-omega_o_.x, 0.0, omega_o_.z), t1(omega_o_.z, 0.0, omega_o_.x);
         const double near = 1.0 + glm::dot(direction, mirror);
         return {glm::vec4(glm::dot(direction, t1) / near, direction.y / near, mixture.w * mean.base,
-                          variance * shift_),
+                          0.5 * std::log2(std::max(variance, 1e-12)) + shift_),
                 float(mean.schlick / mean.base)};
     }
 

@@ -24,11 +24,10 @@ struct MatchedLobe {
 /// Entries of a row: one for each sample, then the Schlick terms of four samples each, if there are any.
 uint32_t view_row_entries(const MatchedLobe& lobe);
 
-/// MATCHED_ROWS rows; row j is for cos_o = (j/(MATCHED_ROWS-1))^2. An entry is (p1, p2, weight, variance): the
+/// MATCHED_ROWS rows; row j is for cos_o = (j/(MATCHED_ROWS-1))^2. An entry is (p1, p2, weight, level): the
 /// lookup goes to 2 p1 T1 + 2 p2 T2 + (1 - p1^2 - p2^2) I, with I the mirror direction, T1 across it in the plane
-/// of view, on the normal's side, and T2 across both; the variance of its directions per axis, with the level
-/// shift of maths section 6 in it, is in units that the shader multiplies by 2 face_texels/(4 c_f). A Schlick
-/// term is the mean of (1 - o.h)^5 over a component.
+/// of view, on the normal's side, and T2 across both; its level is that of a map whose level 0 has a variance of
+/// one, the shift of maths section 6 included. A Schlick term is the mean of (1 - o.h)^5 over a component.
 std::vector<glm::vec4> build_matched_view_table(const MatchedLobe& lobe);
 
 } // namespace burnish
