@@ -75,7 +75,8 @@ py::dict report_dict(const render::Report& report) {
 }
 
 py::dict plan_dict(const Scene& scene, const Sampler& sampler, int64_t spp, const std::string& filter, bool) {
-    const Plan plan = make_plan(scene, plan_settings(sampler, spp, filter));
+    SunCache suns;
+    const Plan plan = make_plan(scene, plan_settings(sampler, spp, filter), suns);
     py::list passes, classes;
     for (const PassLine& line : plan.passes)
         passes.append(py::dict(py::arg("name") = line.name, py::arg("reason") = line.reason));

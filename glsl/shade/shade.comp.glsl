@@ -7,6 +7,7 @@
 #include "shade/lobe.glsl"
 #include "shade/matched.glsl"
 #include "shade/prefiltered.glsl"
+#include "shade/suns.glsl"
 #include "shade/surface_point.glsl"
 
 vec3 shade_lobe(PointToShade point, MapRecord map, uint lobe_index, uint which) {
@@ -37,7 +38,9 @@ vec3 shade_lobe(PointToShade point, MapRecord map, uint lobe_index, uint which) 
 
     vec2 albedo = vec2(0.0);
     if (NORMALIZATION == NORMALIZATION_FURNACE || CONSERVES_ENERGY) albedo = lobe_albedo(record, v.roughness, v.local_o);
-    return finish_lobe(v, sums, lobe.specular, lobe.grazing, albedo) * conserving_scale(record, albedo, v.cos_o_power);
+    vec3 light = finish_lobe(v, sums, lobe.specular, lobe.grazing, albedo);
+    if (SUN_COUNT > 0u) light += shade_suns(v, map, lobe.specular, lobe.grazing);
+    return light * conserving_scale(record, albedo, v.cos_o_power);
 }
 
 void main() {

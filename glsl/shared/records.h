@@ -2,6 +2,7 @@
 #ifndef BURNISH_SHARED_RECORDS_H
 #define BURNISH_SHARED_RECORDS_H
 
+#include "shared/constants.h"
 #include "shared/types.h"
 
 SHARED_BEGIN
@@ -46,8 +47,9 @@ struct MapRecord {
     uint layer;           // cube in its array
     uint face_size;       // texels
     uint alias_begin;     // first entry of its TexelAlias table
+    vec4 suns[2 * MAX_SUNS]; // each: direction, environment space, and its variance; rgb: flux
 };
-SHARED_SIZE(MapRecord, 208)
+SHARED_SIZE(MapRecord, 336)
 
 // The view a frame is drawn from. A pixel's ray is ray_corner + (x + .5) ray_dx + (y + .5) ray_dy, x right, y down.
 struct ViewRecord {

@@ -22,8 +22,7 @@ VkImageCopy finest_level(const vulkan::ImageSettings& settings) {
 } // namespace
 
 Prefilter::Prefilter(std::shared_ptr<const vulkan::Device> device)
-    : device_(std::move(device)),
-      shader_(device_, "pyramid/prefilter.comp", pyramid_prefilter_comp_spv),
+    : device_(std::move(device)), shader_(device_, "pyramid/prefilter.comp", pyramid_prefilter_comp_spv),
       sampler_(device_, {}) {}
 
 const vulkan::ComputePipeline& Prefilter::pipeline(PrefilterKernel kernel) {
@@ -43,8 +42,9 @@ const Prefilter::Scratch& Prefilter::scratch(const Key& key) {
     uint32_t texels = 0;
     for (uint32_t level = 1; face_size >> level; ++level) {
         const uint32_t size = face_size >> level;
-        const SampleTable table = kernel == PrefilterKernel::lobe ? build_prefilter_table(level, face_size)
-                                                                  : build_spherical_table(size, face_size, filter);
+        const SampleTable table = kernel == PrefilterKernel::lobe
+                                      ? build_prefilter_table(level, face_size)
+                                      : build_spherical_table(size, face_size, filter);
         scratch.levels.push_back({size, texels, static_cast<uint32_t>(samples.size()),
                                   static_cast<uint32_t>(table.entries.size())});
         samples.insert(samples.end(), table.entries.begin(), table.entries.end());

@@ -1,5 +1,5 @@
-// Maps whose levels are no pyramid (glsl/shared/prefilter.h): every level the map as one lobe sees it, or under a
-// Gaussian that is round on the sphere.
+// Maps whose levels are no pyramid (glsl/shared/prefilter.h): every level the map as one lobe sees it, or
+// under a Gaussian that is round on the sphere.
 #pragma once
 
 #include "burnish/sampling/pyramid_filter.h"

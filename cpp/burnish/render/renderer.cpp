@@ -80,8 +80,9 @@ std::vector<std::shared_ptr<EnvironmentMaps>> Renderer::prepare_maps(const Plan&
             result.push_back(found->maps);
             continue;
         }
-        const auto maps = std::make_shared<EnvironmentMaps>(
-            device_, pyramid_, environments, filter, kernel ? &prefilter() : nullptr, kernel.value_or(PrefilterKernel::lobe));
+        const auto maps = std::make_shared<EnvironmentMaps>(device_, pyramid_, environments, filter,
+                                                            kernel ? &prefilter() : nullptr,
+                                                            kernel.value_or(PrefilterKernel::lobe));
         add_pass_times(times, maps->pass_times());
         maps_.push_back({{environments.begin(), environments.end()}, filter, kernel, maps});
         result.push_back(maps);
@@ -142,7 +143,10 @@ Report Renderer::start_report(const Scene& scene, const Plan& plan, const ShadeT
     }
     report.warnings.insert(report.warnings.end(), scene.warnings.begin(), scene.warnings.end());
     report.ignored_extensions = scene.ignored_extensions;
-    for (const auto& environment : plan.environments) {
+    for (size_t k = 0; k < plan.whole_environments.size(); ++k) {
+        const auto& environment = plan.whole_environments[k];
+        const auto begin = plan.whole_environments.begin();
+        if (std::find(begin, begin + k, environment) != begin + k) continue; // with and without its suns
         const std::string sentence = environment->texel_report().sentence();
         if (!sentence.empty())
             report.warnings.push_back("environment " + environment->name + ": " + sentence);
@@ -160,7 +164,7 @@ Frame Renderer::render(const Scene& scene, const Camera& camera, const RenderSet
             message("size: expected 1..16384 pixels each way, got ", settings.height, " x ", settings.width));
     pipelines_.take_compile_ms();
     GpuScene& gpu_scene = prepare_scene(scene);
-    const Plan plan = make_plan(scene, settings.plan);
+    const Plan plan = make_plan(scene, settings.plan, suns_);
 
     Frame frame;
     frame.width = settings.width;
@@ -261,7 +265,7 @@ std::vector<glm::vec3> Renderer::shade(const std::shared_ptr<const Environment>&
     scene.materials = {material};
     scene.materials[0].source.reset(); // points carry no texture coordinates: its factors hold everywhere
     scene.objects.emplace_back();
-    const Plan plan = make_plan(scene, settings);
+    const Plan plan = make_plan(scene, settings, suns_);
     std::vector<vulkan::PassTime> times;
     const std::vector<std::shared_ptr<EnvironmentMaps>> maps = prepare_maps(plan, times);
     const ShadeTables tables = make_shade_tables(device_, scene, plan, tables_);

@@ -71,7 +71,7 @@ public:
 private:
     struct CachedMaps {
         std::vector<std::weak_ptr<const Environment>> environments;
-        std::optional<PyramidFilter> filter; // none: level 0 alone
+        std::optional<PyramidFilter> filter;   // none: level 0 alone
         std::optional<PrefilterKernel> kernel; // none: a pyramid
         std::shared_ptr<EnvironmentMaps> maps;
     };
@@ -95,6 +95,7 @@ private:
     std::unique_ptr<Prefilter> prefilter_; // once a frame calls for it
     Placeholders placeholders_;
     TableCache tables_;
+    SunCache suns_;
     uint64_t scene_fingerprint_ = 0;
     std::unique_ptr<GpuScene> scene_;
     std::vector<CachedMaps> maps_;

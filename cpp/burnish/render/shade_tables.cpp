@@ -134,7 +134,7 @@ KurtLobe lobe_of(const Material& material, uint32_t which, const ShadeTraits& tr
 }
 
 shared::MapRecord map_record(const Environment& environment, uint32_t layer,
-                             const IrradianceCoefficients& irradiance) {
+                             const IrradianceCoefficients& irradiance, const std::vector<Sun>& suns) {
     shared::MapRecord record{};
     record.env_from_world_x = glm::vec4(environment.rotation[0], 0.0f);
     record.env_from_world_y = glm::vec4(environment.rotation[1], 0.0f);
@@ -144,6 +144,10 @@ shared::MapRecord map_record(const Environment& environment, uint32_t layer,
     record.radiance_scale = std::exp2(environment.exposure);
     record.layer = layer;
     record.face_size = environment.face_size();
+    for (size_t k = 0; k < suns.size(); ++k) {
+        record.suns[2 * k] = glm::vec4(suns[k].direction, suns[k].variance);
+        record.suns[2 * k + 1] = glm::vec4(suns[k].flux, 0.0);
+    }
     return record;
 }
 
@@ -248,8 +252,9 @@ ShadeTables make_shade_tables(const vulkan::DevicePointer& device, const Scene& 
     std::vector<shared::MapRecord> maps(plan.environments.size());
     for (const MapSet& set : plan.map_sets)
         for (uint32_t layer = 0; layer < set.environments.size(); ++layer) {
-            const auto& environment = plan.environments[set.environments[layer]];
-            maps[set.environments[layer]] = map_record(*environment, layer, cache.irradiance(environment));
+            const uint32_t k = set.environments[layer];
+            maps[k] = map_record(*plan.environments[k], layer, cache.irradiance(plan.whole_environments[k]),
+                                 plan.suns[k]);
         }
 
     uint32_t alias_begin = 0;
