@@ -5,6 +5,7 @@
 
 #include "lib/spherical_harmonics.glsl"
 #include "shade/lobe.glsl"
+#include "shade/matched.glsl"
 #include "shade/prefiltered.glsl"
 #include "shade/surface_point.glsl"
 
@@ -25,7 +26,11 @@ vec3 shade_lobe(PointToShade point, MapRecord map, uint lobe_index, uint which) 
     if (TABLE == TABLE_PREFILTERED) return shade_prefiltered(v, lobe, record, float(map.face_size));
 
     LobeSums sums;
-    if (TABLE == TABLE_CONSTANT)
+    if (TABLE == TABLE_MATCHED)
+        sums = gather_matched(v, view_mixture(v, record.table_begin, record.texel_factor, lobe.specular, lobe.grazing));
+    else if (TABLE == TABLE_MATCHED_BY_VIEW)
+        sums = gather_by_view(v, record.table_begin, record.texel_factor);
+    else if (TABLE == TABLE_CONSTANT)
         sums = gather_constant(v);
     else
         sums = gather_buffer(v, record.table_begin, record.table_count);

@@ -20,6 +20,12 @@ SHARED_CONST uint ALBEDO_COS_NODES = 128u;
 SHARED_CONST uint ALBEDO_ROUGHNESS_NODES = 16u;
 SHARED_CONST float ALBEDO_LEAST_ROUGHNESS = 0.01f;
 
+// The matched table is fitted at MATCHED_NODES aspects of the lobe on the map, evenly in their log up to 34, and read from
+// MATCHED_ROWS: so many that the nearest will do.
+SHARED_CONST uint MATCHED_NODES = 40u;
+SHARED_CONST uint MATCHED_ROWS = 1024u;
+SHARED_CONST float MATCHED_LOG2_LARGEST_RHO = 5.0874628f;
+
 // Bindings of the shade kernels.
 SHARED_CONST uint BINDING_VIEW = 0u;
 SHARED_CONST uint BINDING_MATERIALS = 1u;
@@ -65,6 +71,7 @@ SHARED_CONST uint SPEC_HAS_ANISOTROPY = 16u;
 SHARED_CONST uint SPEC_IS_QUADRATURE = 17u;
 SHARED_CONST uint SPEC_WITHOUT_LOOKUPS = 18u; // for benchmarks: shading alone
 SHARED_CONST uint SPEC_CONSERVES_ENERGY = 19u;
+SHARED_CONST uint SPEC_WIDE_COMPONENTS = 20u;
 SHARED_CONST uint SPEC_SAMPLES = 100u; // four floats a sample follow
 
 SHARED_CONST uint SOURCE_PIXELS = 0u;
@@ -78,6 +85,7 @@ SHARED_CONST uint TABLE_BUFFER = 1u;   // any lobes
 SHARED_CONST uint TABLE_SCALED_REGULAR = 2u;
 SHARED_CONST uint TABLE_SCALED_IMPORTANCE = 3u;
 SHARED_CONST uint TABLE_MATCHED = 4u;     // mixtures by the aspect of the lobe's mirrored axes, placed at every point
+SHARED_CONST uint TABLE_MATCHED_BY_VIEW = 6u; // mixtures by the view, placed for the material
 SHARED_CONST uint TABLE_PREFILTERED = 5u; // one lookup in a map prefiltered for the roughness
 SHARED_CONST uint FOOTPRINT_PUBLISHED = 0u;
 SHARED_CONST uint FOOTPRINT_EXACT = 1u;

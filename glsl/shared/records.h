@@ -19,7 +19,7 @@ struct LobeRecord {
     uint albedo_width_nodes; // 1 = isotropic
     float threshold_log;   // -ln xi0, for scaled tables of the regular pattern
     uint conserves_energy; // 1: divided by its albedo where that exceeds 1
-    uint pad0;
+    float texel_factor;    // of matched lookups: 2 face_texels / (4 c_f)
     uint pad1;
     uint pad2;
 };

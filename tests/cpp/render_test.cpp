@@ -72,7 +72,9 @@ TEST(Render, SphereInAFurnaceIsNoBrighterThanIt) {
     ASSERT_EQ(frame.radiance.size(), 33u * 33u);
     for (const glm::vec4& texel : frame.radiance) {
         EXPECT_LE(texel.r, 1.001f);
-        if (texel.a == 0.0f) EXPECT_FLOAT_EQ(texel.r, 1.0f);
+        if (texel.a == 0.0f) { // braces: the macro holds an if of its own
+            EXPECT_FLOAT_EQ(texel.r, 1.0f);
+        }
     }
     EXPECT_NEAR(frame.radiance[16 * 33 + 16].r, directional_albedo({0, 0, 1}, glm::dvec2(0.1), 0.0).x, 1e-3);
     EXPECT_EQ(frame.report.non_finite, 0u);

@@ -115,7 +115,10 @@ std::string describe(const ShadeClass& one, const Scene& scene, const Plan& plan
         text += "; roughness varies over the surface, samples scale with it";
         break;
     case TableForm::matched:
-        text += "; mixtures by the lobe's aspect at every point, from a buffer";
+        text += "; mixtures placed at every point by the lobe's aspect on the map";
+        break;
+    case TableForm::matched_by_view:
+        text += "; wide round lobes, mixtures placed for every view when the material changes";
         break;
     case TableForm::prefiltered:
         text += "; one lookup a lobe in a prefiltered map";

@@ -72,6 +72,22 @@ bool fits_into_constants(const Sampler& sampler) {
     return false;
 }
 
+/// Slope from which a component of a mixture bends so much that its mean takes nine points (measured: maths, section 6).
+constexpr float WIDE_LOBE = 0.2f;
+
+/// Round wide lobes look up no map so narrowly that the metric of its faces matters: their lookups depend on the
+/// view alone. Narrow and brushed ones are placed at every point, textured ones with as many points as wide lobes
+/// need.
+TableForm matched_form(const Material& material, ShadeTraits& traits) {
+    const auto is_wide = [](const KurtLobe& lobe) {
+        return !lobe.is_anisotropic() && lobe.roughness.x > WIDE_LOBE;
+    };
+    traits.has_wide_components = traits.has_varying;
+    if (!traits.has_varying && std::all_of(material.lobes.begin(), material.lobes.end(), is_wide))
+        return TableForm::matched_by_view;
+    return TableForm::matched;
+}
+
 ShadeTraits traits_of(const Scene& scene, const Plan& plan, const MaterialInstance& instance) {
     const Material& material = scene.materials[instance.material];
     ShadeTraits traits;
@@ -99,7 +115,7 @@ ShadeTraits traits_of(const Scene& scene, const Plan& plan, const MaterialInstan
     traits.has_tangent |= has_texture(material, &MetallicRoughness::anisotropy_texture);
     if (traits.lobe_count == 0 || std::holds_alternative<Reference>(plan.settings.sampler)) return traits;
     if (std::holds_alternative<Matched>(plan.settings.sampler)) {
-        traits.table = TableForm::matched;
+        traits.table = matched_form(material, traits);
     } else if (std::holds_alternative<Prefiltered>(plan.settings.sampler)) {
         traits.table = TableForm::prefiltered;
     } else if (traits.has_varying) {
@@ -140,6 +156,7 @@ void share_pipelines(ShadeTraits& traits) {
     traits.has_diffuse = traits.has_emissive = traits.has_map_rotation = true;
     if (traits.lobe_count == 0) return;
     traits.has_fresnel = traits.has_tangent = traits.conserves_energy = true;
+    traits.has_wide_components = traits.table == TableForm::matched;
     traits.alpha = AlphaForm::general;
     traits.has_coat = traits.has_varying && traits.lobe_count > 1;
 }

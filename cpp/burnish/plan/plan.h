@@ -35,8 +35,9 @@ struct PassLine {
 
 enum class AlphaForm { zero, half, general };
 /// Where a class's samples come from: baked into the pipeline; a buffer; a buffer in units of a varying
-/// roughness; mixtures by the lobe's aspect, placed at every point; the one lookup of a prefiltered map.
-enum class TableForm { none, constant, buffer, scaled, matched, prefiltered };
+/// roughness; mixtures by the lobe's aspect, placed at every point, or by the
+/// view, placed for the material; the one lookup of a prefiltered map.
+enum class TableForm { none, constant, buffer, scaled, matched, matched_by_view, prefiltered };
 
 /// One specialised pipeline and what it is made for. Two materials of equal traits share it.
 struct ShadeTraits {
@@ -51,6 +52,7 @@ struct ShadeTraits {
     bool has_coat = false;
     bool has_map_rotation = false;
     TableForm table = TableForm::none;
+    bool has_wide_components = false; ///< of matched tables: more points for a component's mean direction
     glm::vec2 roughness{0.0f}; ///< of constant tables, else 0
     uint32_t map_set = 0;      ///< index into Plan::map_sets
 

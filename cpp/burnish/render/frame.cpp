@@ -55,6 +55,8 @@ const char* table_name(TableForm form) {
         return "scaled";
     case TableForm::matched:
         return "matched";
+    case TableForm::matched_by_view:
+        return "matched by view";
     case TableForm::prefiltered:
         return "prefiltered";
     }

@@ -29,6 +29,8 @@ uint32_t table_of(TableForm form, const Sampler& sampler) {
                                                         : shared::TABLE_SCALED_IMPORTANCE;
     case TableForm::matched:
         return shared::TABLE_MATCHED;
+    case TableForm::matched_by_view:
+        return shared::TABLE_MATCHED_BY_VIEW;
     case TableForm::prefiltered:
         return shared::TABLE_PREFILTERED;
     case TableForm::none:
@@ -39,6 +41,7 @@ uint32_t table_of(TableForm form, const Sampler& sampler) {
 }
 
 uint32_t normalization_of(const Sampler& sampler, TableForm form) {
+    if (std::holds_alternative<Matched>(sampler)) return shared::NORMALIZATION_FURNACE;
     const auto* regular = std::get_if<Regular>(&sampler);
     if (!regular) return shared::NORMALIZATION_CONSTANT;
     if (regular->normalization == Normalization::furnace) return shared::NORMALIZATION_FURNACE;
@@ -74,6 +77,9 @@ void add_pattern_constants(vulkan::SpecializationConstants& constants, const Sha
         .set(shared::SPEC_FOOTPRINT, is_published ? shared::FOOTPRINT_PUBLISHED : shared::FOOTPRINT_EXACT)
         .set(shared::SPEC_WITHOUT_LOOKUPS, !settings.has_lookups)
         .set(shared::SPEC_NORMALIZATION, normalization_of(sampler, traits.table));
+    if (const auto* matched = std::get_if<Matched>(&sampler))
+        constants.set(shared::SPEC_SAMPLE_COUNT, matched->samples)
+            .set(shared::SPEC_WIDE_COMPONENTS, traits.has_wide_components);
     if (traits.table != TableForm::constant) return;
     constants.set(shared::SPEC_SAMPLE_COUNT, uint32_t(table.entries.size()));
     for (uint32_t k = 0; k < table.entries.size(); ++k)

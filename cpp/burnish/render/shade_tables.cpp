@@ -1,9 +1,12 @@
 #include "burnish/render/shade_tables.h"
 
+#include <algorithm>
 #include <cmath>
+#include <optional>
 #include <set>
 
 #include "burnish/error.h"
+#include "burnish/sampling/matched_table.h"
 #include "burnish/sampling/spherical_harmonics.h"
 #include "burnish/vulkan/device.h"
 #include "burnish/vulkan/transfer.h"
@@ -25,7 +28,11 @@ SampleTable build_table(const Sampler& sampler, TableForm form, glm::vec2 roughn
 bool needs_albedo(const Sampler& sampler) {
     const auto* regular = std::get_if<Regular>(&sampler);
     return (regular && regular->normalization == Normalization::furnace) ||
-           std::holds_alternative<Prefiltered>(sampler);
+           std::holds_alternative<Matched>(sampler) || std::holds_alternative<Prefiltered>(sampler);
+}
+
+float mean(glm::vec3 v) {
+    return (v.r + v.g + v.b) / 3.0f;
 }
 
 /// Appends tables to one buffer, each once.
@@ -52,6 +59,26 @@ public:
         return found->second;
     }
 
+    /// First entry of the mixtures of a count.
+    uint32_t mixtures(uint32_t count) {
+        if (!mixtures_begin_) mixtures_begin_ = append(cache_.mixtures(count));
+        return *mixtures_begin_;
+    }
+
+    /// First entry of the lookups of one isotropic lobe, by view.
+    uint32_t view_table(uint32_t count, const KurtLobe& lobe, bool has_schlick) {
+        MatchedLobe key{count, lobe.roughness.x, lobe.alpha, 1.0f, 0.0f, has_schlick};
+        const float specular = mean(lobe.weight * lobe.r0), total = mean(lobe.weight);
+        if (lobe.has_fresnel() && total > 0.0f) {
+            // Where nothing is reflected, some direction must still come out.
+            key.specular = std::clamp(specular / total, 1e-3f, 1.0f);
+            key.grazing = 1.0f - key.specular;
+        }
+        const auto found = view_begins_.find(key);
+        if (found != view_begins_.end()) return found->second;
+        return view_begins_.emplace(key, append(cache_.view_table(key))).first->second;
+    }
+
     /// First entry and azimuth nodes of the albedo table of a lobe.
     Range albedo(bool is_varying, glm::vec2 roughness, float alpha) {
         const std::array<float, 3> key =
@@ -71,8 +98,16 @@ public:
     std::vector<glm::vec2> albedo_entries;
 
 private:
+    uint32_t append(const std::vector<glm::vec4>& entries) {
+        const uint32_t begin = uint32_t(sample_entries.size());
+        sample_entries.insert(sample_entries.end(), entries.begin(), entries.end());
+        return begin;
+    }
+
     const Plan& plan_;
     TableCache& cache_;
+    std::optional<uint32_t> mixtures_begin_;
+    std::map<MatchedLobe, uint32_t> view_begins_;
     std::map<std::array<float, 4>, Range> ranges_;
     std::map<std::array<float, 3>, Range> albedo_ranges_;
 };
@@ -128,6 +163,18 @@ const AlbedoTable& TableCache::albedo(glm::vec2 roughness, float alpha) {
     return found->second;
 }
 
+const std::vector<glm::vec4>& TableCache::mixtures(uint32_t count) {
+    auto found = mixtures_.find(count);
+    if (found == mixtures_.end()) found = mixtures_.emplace(count, matched_mixtures(count)).first;
+    return found->second;
+}
+
+const std::vector<glm::vec4>& TableCache::view_table(const MatchedLobe& lobe) {
+    auto found = view_tables_.find(lobe);
+    if (found == view_tables_.end()) found = view_tables_.emplace(lobe, build_matched_view_table(lobe)).first;
+    return found->second;
+}
+
 const std::vector<glm::vec2>& TableCache::varying_albedo(float alpha) {
     auto found = varying_albedo_.find(alpha);
     if (found != varying_albedo_.end()) return found->second;
@@ -170,7 +217,15 @@ ShadeTables make_shade_tables(const vulkan::DevicePointer& device, const Scene& 
         for (uint32_t which = 0; which < traits.lobe_count; ++which) {
             const KurtLobe lobe = lobe_of(material, which, traits);
             shared::LobeRecord record = lobe_record(lobe);
-            if (traits.table == TableForm::prefiltered) {
+            if (const auto* matched = std::get_if<Matched>(&plan.settings.sampler)) {
+                record.table_begin = traits.table == TableForm::matched_by_view
+                                         ? writer.view_table(matched->samples, lobe, traits.has_fresnel)
+                                         : writer.mixtures(matched->samples);
+                record.table_count = matched->samples;
+                record.texel_factor = float(face_size) * float(face_size) /
+                                      (2.0f * lookup_variance(plan.settings.filter));
+                counts[instance.shade_class].insert(matched->samples);
+            } else if (traits.table == TableForm::prefiltered) {
                 counts[instance.shade_class].insert(1);
             } else if (traits.table != TableForm::none) {
                 const auto samples = writer.samples(traits.table, lobe.roughness, face_size);

@@ -8,6 +8,7 @@
 
 #include "burnish/plan/plan.h"
 #include "burnish/sampling/albedo_table.h"
+#include "burnish/sampling/matched_view_table.h"
 #include "burnish/sampling/sample_table.h"
 #include "burnish/vulkan/buffer.h"
 #include "shared/records.h"
@@ -22,11 +23,15 @@ public:
     const AlbedoTable& albedo(glm::vec2 roughness, float alpha);
     /// One row for each of ALBEDO_ROUGHNESS_NODES roughnesses.
     const std::vector<glm::vec2>& varying_albedo(float alpha);
+    const std::vector<glm::vec4>& mixtures(uint32_t count);
+    const std::vector<glm::vec4>& view_table(const MatchedLobe& lobe);
     const IrradianceCoefficients& irradiance(const std::shared_ptr<const Environment>& environment);
 
 private:
     std::map<std::array<float, 3>, AlbedoTable> albedo_;
     std::map<float, std::vector<glm::vec2>> varying_albedo_;
+    std::map<uint32_t, std::vector<glm::vec4>> mixtures_;
+    std::map<MatchedLobe, std::vector<glm::vec4>> view_tables_;
     struct Irradiance {
         std::weak_ptr<const Environment> environment; // a new one may take an old one's address
         IrradianceCoefficients coefficients;

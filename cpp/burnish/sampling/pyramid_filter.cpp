@@ -14,6 +14,18 @@ PyramidFilter pyramid_filter(const std::string& name) {
         message("filter: expected \"box\", \"gauss4\" or \"gauss6\", got \"", name, "\""));
 }
 
+float lookup_variance(PyramidFilter filter) {
+    switch (filter) {
+    case PyramidFilter::box:
+        return 0.25f;
+    case PyramidFilter::gauss4:
+        return 5.0f / 12.0f;
+    case PyramidFilter::gauss6:
+        return 7.0f / 12.0f;
+    }
+    return 0.25f;
+}
+
 const char* pyramid_filter_name(PyramidFilter filter) {
     return filter == PyramidFilter::box ? "box" : filter == PyramidFilter::gauss4 ? "gauss4" : "gauss6";
 }

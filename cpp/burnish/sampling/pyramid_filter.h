@@ -14,6 +14,9 @@ enum class PyramidFilter {
 
 /// "box", "gauss4", "gauss6". Throws std::invalid_argument on any other name.
 PyramidFilter pyramid_filter(const std::string& name);
+/// c_f: the variance of a bilinear lookup in level l of the pyramid is c_f 4^l squared texels of level 0, per
+/// axis (maths: section 5).
+float lookup_variance(PyramidFilter filter);
 const char* pyramid_filter_name(PyramidFilter filter);
 
 } // namespace burnish

@@ -1,0 +1,308 @@
+// Radiance of one lobe by the variance-matched sampler (maths: section 6): the lobe as a mixture of Gaussians whose widths are
+// those of the lookups, so that centres and lookups together have the lobe's covariance.
+#ifndef BURNISH_SHADE_MATCHED
+#define BURNISH_SHADE_MATCHED
+
+#include "shade/lobe.glsl"
+
+layout(constant_id = SPEC_WIDE_COMPONENTS) const bool HAS_WIDE_COMPONENTS = false;
+
+// A mixture's place at one point. A slope y1 axis1 + y2 axis2 (y in units of the lobe's principal axes on the map) is
+//   g = n + y1 g1 + y2 g2,  og = o.g = o.n + y1 o1 + y2 o2,  |g|^2 = 1 + y1^2 m11 + 2 y1 y2 m12 + y2^2 m22.
+struct MixtureView {
+    vec3 g1, g2;         // environment space
+    float o1, o2;
+    // One deviation of a component of s = 1: h along the direction in which cos_i changes most, p across it (o.p = 0).
+    vec3 h, p;
+    float oh, h2, p2;    // o.h, |h|^2, |p|^2
+    float linear;        // b^2/c: a component's variance over s^2 (o.h) cos_h^3
+    float texels;        // 2 face_texels / (4 c_f) 2^(2 S)
+    int row;             // its first entry in the table
+    vec2 fresnel;        // F = x + y (1 - o.h)^5 over all channels: weighs directions within a component
+};
+
+// Of the linear map's variance, what a narrow component has: the reflection's bend takes the rest.
+const float NARROW_VARIANCE = 0.95;
+
+struct LobeAxes {
+    vec2 v1, v2; // unit circle of slopes to principal axes on the map: columns of V
+    float rho, minor, foreshortening;
+};
+
+// Widths of the mirrored lobe on the map: L maps slopes in units of roughness to offsets from the mirror direction, along T1 in
+// the plane of view and T2 across it; `radial`, a unit vector in that basis, and `stretch` = q^2 say how a lookup, round on the
+// cube's face, lies on the sphere. A = q r r^T + t t^T / q has determinant 1, so that the singular values of A L multiply to
+// 4 mx my c, and V diagonalises L^T A^2 L.
+LobeAxes lobe_axes(vec3 local_o, vec2 roughness, vec2 radial, float stretch) {
+    float sine = length(local_o.xy);
+    vec2 e = sine > 1e-6 ? local_o.xy / sine : vec2(1.0, 0.0);
+    vec2 across = local_o.xy * roughness;
+    float floored = max(local_o.z, 0.03);
+    LobeAxes axes;
+    axes.foreshortening = sqrt(floored * floored + dot(across, across));
+    vec2 l1 = 2.0 * roughness.x * vec2(e.x, -e.y * axes.foreshortening);
+    vec2 l2 = 2.0 * roughness.y * vec2(e.y, e.x * axes.foreshortening);
+    float more = stretch - 1.0 / stretch;
+    float r1 = dot(radial, l1), r2 = dot(radial, l2);
+    float p = dot(l1, l1) / stretch + more * r1 * r1;
+    float s = dot(l2, l2) / stretch + more * r2 * r2;
+    float off = dot(l1, l2) / stretch + more * r1 * r2;
+    float half_difference = 0.5 * (p - s);
+    float radius = sqrt(half_difference * half_difference + off * off);
+    float major2 = 0.5 * (p + s) + radius;
+    float product = 4.0 * roughness.x * roughness.y * axes.foreshortening;
+    axes.rho = max(major2 / product, 1.0);
+    axes.minor = product * inversesqrt(major2);
+    // Half the angle whose cosine is half_difference/radius, from its larger part: no cancellation.
+    float cosine = radius > 1e-7 * major2 ? half_difference / radius : 1.0;
+    float larger = sqrt(0.5 + 0.5 * abs(cosine));
+    float smaller = radius > 1e-7 * major2 ? 0.5 * off / (radius * larger) : 0.0;
+    axes.v1 = cosine >= 0.0 ? vec2(larger, smaller) : vec2(abs(smaller), off < 0.0 ? -larger : larger);
+    axes.v2 = vec2(-axes.v1.y, axes.v1.x);
+    return axes;
+}
+
+// How a lookup at `mirror` lies on the sphere: it is round in the face's (u, v). `radial` points away from the face's centre, in
+// the basis (t1, t2); returns q^2, the ratio of its widths. (u, v) are bent so that no seam shows; wide lobes see several faces,
+// and the stretch fades.
+float lookup_stretch(vec3 mirror, vec3 t1, vec3 t2, float widest, out vec2 radial) {
+    vec3 a = abs(mirror);
+    float largest = max(max(a.x, a.y), a.z);
+    vec3 p = mirror / largest;
+    bool is_z = a.z == largest, is_y = !is_z && a.y == largest;
+    vec2 uv = is_z ? p.xy : (is_y ? p.xz : p.yz);
+    vec2 uv4 = uv * uv * uv * uv;
+    uv *= 1.0 - uv4.yx;
+    vec3 tau = is_z ? vec3(-uv.y, uv.x, 0.0) : (is_y ? vec3(-uv.y, 0.0, uv.x) : vec3(0.0, -uv.y, uv.x));
+    vec2 tangential = vec2(dot(tau, t1), dot(tau, t2));
+    tangential *= inversesqrt(max(dot(tangential, tangential), 1e-20));
+    radial = vec2(-tangential.y, tangential.x);
+    float w = widest * (1.0 / 0.25);
+    return exp2(0.5 * log2(1.0 + dot(uv, uv)) / (1.0 + w * w * w));
+}
+
+// (T1, T2, I): the mirror direction I, T1 across it in the plane of view, T2 across both. Environment space.
+mat3 mirror_frame(LobeView v) {
+    float sine = length(v.local_o.xy);
+    vec2 e = sine > 1e-6 ? v.local_o.xy / sine : vec2(1.0, 0.0);
+    vec3 plane = e.x * v.frame[0] + e.y * v.frame[1];
+    return mat3(v.local_o.z * plane + sine * v.frame[2], e.x * v.frame[1] - e.y * v.frame[0], 2.0 * v.local_o.z * v.frame[2] - v.omega_o);
+}
+
+MixtureView view_mixture(LobeView v, uint table_begin, float texel_factor, vec3 specular, vec3 grazing) {
+    mat3 around = mirror_frame(v);
+    vec2 radial;
+    float widest = max(v.roughness.x, v.roughness.y);
+    float stretch = lookup_stretch(around[2], around[0], around[1], widest, radial);
+    LobeAxes axes = lobe_axes(v.local_o, v.roughness, radial, stretch);
+
+    MixtureView view;
+    vec2 slope1 = v.roughness * axes.v1, slope2 = v.roughness * axes.v2;
+    view.g1 = slope1.x * v.frame[0] + slope1.y * v.frame[1];
+    view.g2 = slope2.x * v.frame[0] + slope2.y * v.frame[1];
+    view.o1 = dot(slope1, v.local_o.xy);
+    view.o2 = dot(slope2, v.local_o.xy);
+    float inverse_rho = 1.0 / axes.rho;
+    vec2 slope = vec2(view.o1 * inverse_rho, view.o2);
+    float steepness = length(slope);
+    vec2 u = steepness > 1e-7 ? slope / steepness : vec2(0.0, 1.0);
+    view.h = (u.x * inverse_rho) * view.g1 + u.y * view.g2;
+    view.p = (-u.y * inverse_rho) * view.g1 + u.x * view.g2;
+    view.oh = dot(u, slope);
+    view.p2 = dot(view.p, view.p);
+    view.linear = NARROW_VARIANCE * axes.minor * axes.minor / axes.foreshortening;
+    view.h2 = dot(view.h, view.h);
+    float t = min(axes.rho / float(SAMPLE_COUNT), 3.0);
+    float shift = -0.05 + 0.16 * t + 0.15 * max(t - 1.0, 0.0) + 0.04 * clamp((widest - 0.15) / 0.15, 0.0, 1.0);
+    view.texels = texel_factor * exp2(2.0 * shift);
+    float node = log2(axes.rho) * (float(MATCHED_ROWS - 1u) / MATCHED_LOG2_LARGEST_RHO) + 0.5;
+    view.row = int(table_begin) + int((SAMPLE_COUNT + 1u) / 2u) * int(node < float(MATCHED_ROWS - 1u) ? node : float(MATCHED_ROWS - 1u));
+    // Where nothing is reflected, some direction must still come out.
+    view.fresnel = vec2(dot(specular, vec3(1.0)), dot(grazing, vec3(1.0)));
+    view.fresnel.x = max(view.fresnel.x, 1e-3 * view.fresnel.y);
+    view.fresnel = view.fresnel.x > 1e-9 ? view.fresnel / (view.fresnel.x + view.fresnel.y) : vec2(1.0, 0.0);
+    return view;
+}
+
+// cos_i^(1-alpha), a trace of it below the horizon: a component that lies there has a direction and next to no weight.
+float lit_power(float cos_i, float alpha) {
+    const float trace = 1e-8;
+    if (ALPHA == ALPHA_ZERO) return cos_i > trace ? cos_i : trace;
+    if (ALPHA == ALPHA_HALF) return sqrt(cos_i > trace * trace ? cos_i : trace * trace);
+    return cos_i > 0.0 ? pow(cos_i, 1.0 - alpha) + trace : trace;
+}
+
+// Means of a component over its points: what it reflects, and the direction in which.
+struct Component {
+    float base;    // sum of w, w = cos_i^(1-alpha)/cos_h times a point's share
+    float schlick; // sum of w (1 - o.h)^5
+    float gain;    // sum of F w
+    vec3 direction; // sum of F w omega_i, environment space
+};
+
+// `variance` is that of directions about their mean, per axis, times the level-0 texels that a variance of one covers.
+Lookup finish_component(Component component, float weight, float variance) {
+    Lookup lookup;
+    lookup.direction = component.direction;
+    lookup.weight = weight * component.base;
+    lookup.schlick = HAS_FRESNEL ? component.schlick / component.base : 0.0;
+    lookup.density = 0.0;
+    vec3 a = abs(component.direction);
+    float largest = a.x > a.y ? a.x : a.y;
+    largest = largest > a.z ? largest : a.z;
+    // A lookup of width sigma in (u, v) is r^-2 sigma by r^-1 sigma wide on the sphere: 2/(r^-4 + r^-2).
+    float x = largest * largest / dot(component.direction, component.direction); // r^-2
+    lookup.level = mip_level(variance / (x * (x + 1.0)));
+    return lookup;
+}
+
+// What two components at +y and -y of width s share.
+struct Pair {
+    vec3 d; // y1 g1 + y2 g2
+    float s;
+    float weight;
+    vec2 lengths, inverse; // |g| at the points n + d + s h and n + d - s h, and |g|^-2
+    float bend; // what the curvature across h leaves of q
+    float deviation;       // o.(s h)
+    float variance;
+};
+
+// A narrow component by two points, one deviation to either side of its centre along the direction in which cos_i changes most:
+// exact to second order in the product of weight and direction. The reflection bends across that direction as well: on average
+// q is shorter there by s^2 |p|^2.
+Lookup place_narrow(LobeView v, MixtureView view, Pair pair, vec3 d, float og, vec2 lengths, vec2 inverse) {
+    vec2 products = vec2(og + pair.deviation, og - pair.deviation);
+    vec2 q = (2.0 * pair.bend) * products * inverse;
+    vec2 share = vec2(lit_power(q.x - v.local_o.z, v.alpha), lit_power(q.y - v.local_o.z, v.alpha)) * lengths;
+    Component component;
+    component.base = share.x + share.y;
+    component.schlick = 0.0;
+    if (HAS_FRESNEL) {
+        vec2 cos_d = products * inverse * lengths;
+        vec2 schlick = vec2(schlick_weight(cos_d.x), schlick_weight(cos_d.y));
+        component.schlick = dot(share, schlick);
+        share *= view.fresnel.x + view.fresnel.y * schlick;
+    }
+    component.gain = share.x + share.y;
+    vec2 along = share * q;
+    component.direction =
+        (along.x + along.y) * (v.frame[2] + d) + (pair.s * (along.x - along.y)) * view.h - component.gain * v.omega_o;
+    return finish_component(component, pair.weight, pair.variance * og);
+}
+
+void add_point(LobeView v, MixtureView view, vec3 offset, float share, inout Component component) {
+    vec3 g = v.frame[2] + offset;
+    float og = dot(g, v.omega_o);
+    float length2 = dot(g, g);
+    float root = inversesqrt(length2);
+    float q = 2.0 * og * root * root;
+    float weight = share * lit_power(q - v.local_o.z, v.alpha) * (length2 * root);
+    component.base += weight;
+    if (HAS_FRESNEL) {
+        float schlick = schlick_weight(og * root);
+        component.schlick += weight * schlick;
+        weight *= view.fresnel.x + view.fresnel.y * schlick;
+    }
+    component.gain += weight;
+    component.direction += weight * (q * g - v.omega_o);
+}
+
+// A wide component by 3x3 Gauss-Hermite points; its variance is -ln(|M|/G).
+Lookup place_wide(LobeView v, MixtureView view, Pair pair, vec3 d, float og) {
+    vec3 across = (1.7320508 * pair.s) * view.p, along = (1.7320508 * pair.s) * view.h;
+    Component component = Component(0.0, 0.0, 0.0, vec3(0.0));
+    add_point(v, view, d, 4.0 / 9.0, component);
+    add_point(v, view, d - across, 1.0 / 9.0, component);
+    add_point(v, view, d + across, 1.0 / 9.0, component);
+    add_point(v, view, d - along, 1.0 / 9.0, component);
+    add_point(v, view, d + along, 1.0 / 9.0, component);
+    add_point(v, view, d - across - along, 1.0 / 36.0, component);
+    add_point(v, view, d + across - along, 1.0 / 36.0, component);
+    add_point(v, view, d - across + along, 1.0 / 36.0, component);
+    add_point(v, view, d + across + along, 1.0 / 36.0, component);
+    float variance = -0.34657359 * log2(dot(component.direction, component.direction) / (component.gain * component.gain));
+    float least = 0.5 * pair.s * pair.s * view.linear * og * pair.inverse.x * pair.inverse.y;
+    variance = clamp(variance, max(least, 1e-7), 1.0);
+    return finish_component(component, pair.weight, view.texels * variance);
+}
+
+void place_pair(LobeView v, MixtureView view, vec4 entry, out Lookup one, out Lookup other) {
+    Pair pair;
+    pair.d = entry.x * view.g1 + entry.y * view.g2;
+    pair.s = entry.z;
+    pair.weight = entry.w;
+    float s2 = pair.s * pair.s;
+    float middle = 1.0 + dot(pair.d, pair.d) + s2 * view.h2;
+    float skew = 2.0 * pair.s * dot(pair.d, view.h);
+    vec2 length2 = vec2(middle + skew, middle - skew); // swapped, those of n - d +- s h
+    vec2 inverse_length = inversesqrt(length2);
+    pair.lengths = length2 * inverse_length;
+    pair.inverse = inverse_length * inverse_length;
+    pair.deviation = pair.s * view.oh;
+    float od = entry.x * view.o1 + entry.y * view.o2;
+    if (HAS_WIDE_COMPONENTS) {
+        one = place_wide(v, view, pair, pair.d, v.local_o.z + od);
+        other = place_wide(v, view, pair, -pair.d, v.local_o.z - od);
+        return;
+    }
+    // (s b)^2 (o.h) cos_h^3/c, the variance of the linear map at the centre; og is left to each.
+    pair.variance = s2 * view.texels * view.linear * (pair.inverse.x * pair.inverse.y);
+    pair.bend = 1.0 - s2 * view.p2;
+    one = place_narrow(v, view, pair, pair.d, v.local_o.z + od, pair.lengths, pair.inverse);
+    other = place_narrow(v, view, pair, -pair.d, v.local_o.z - od, pair.lengths.yx, pair.inverse.yx);
+}
+
+vec4 mixture_entry(MixtureView view, uint which) { return imageLoad(sample_table, view.row + int(which)); }
+
+// The entry's lookup at this view: see build_matched_view_table.
+Lookup place_by_view(mat3 mirror_frame, float texel_factor, vec4 entry, float schlick) {
+    Component component;
+    component.base = entry.z;
+    component.schlick = entry.z * schlick;
+    float p2 = dot(entry.xy, entry.xy);
+    component.direction = 2.0 * entry.x * mirror_frame[0] + 2.0 * entry.y * mirror_frame[1] + (1.0 - p2) * mirror_frame[2];
+    return finish_component(component, 1.0, texel_factor * entry.w);
+}
+
+#define VIEW_ENTRY(k) imageLoad(sample_table, row + k)
+#define PLACE_BY_VIEW(k, c, lookup) if (SAMPLE_COUNT > uint(k)) lookup = place_by_view(mirror_frame, texel_factor, VIEW_ENTRY(k), schlick[c]);
+#define GATHER_BY_VIEW(a, b, c, d)                                                                                     \
+    if (HAS_FRESNEL && SAMPLE_COUNT > uint(a)) schlick = VIEW_ENTRY(int(SAMPLE_COUNT) + a / 4);                        \
+    PLACE_BY_VIEW(a, 0, l0) PLACE_BY_VIEW(b, 1, l1) PLACE_BY_VIEW(c, 2, l2) PLACE_BY_VIEW(d, 3, l3)                    \
+    ADD(a, l0) ADD(b, l1) ADD(c, l2) ADD(d, l3)
+
+LobeSums gather_by_view(LobeView v, uint table_begin, float texel_factor) {
+    LobeSums sums = LobeSums(vec3(0.0), vec3(0.0), 0.0, 0.0, 0.0);
+    const uint entries = SAMPLE_COUNT + (HAS_FRESNEL ? (SAMPLE_COUNT + 3u) / 4u : 0u);
+    float x = sqrt(clamp(v.local_o.z, 0.0, 1.0)) * float(MATCHED_ROWS - 1u) + 0.5;
+    int row = int(table_begin) + int(entries) * int(x);
+    mat3 mirror_frame = mirror_frame(v);
+    vec4 schlick = vec4(0.0);
+    Lookup l0, l1, l2, l3;
+    GATHER_BY_VIEW(0, 1, 2, 3) GATHER_BY_VIEW(4, 5, 6, 7) GATHER_BY_VIEW(8, 9, 10, 11) GATHER_BY_VIEW(12, 13, 14, 15)
+    GATHER_BY_VIEW(16, 17, 18, 19) GATHER_BY_VIEW(20, 21, 22, 23) GATHER_BY_VIEW(24, 25, 26, 27) GATHER_BY_VIEW(28, 29, 30, 31)
+    GATHER_BY_VIEW(32, 33, 34, 35) GATHER_BY_VIEW(36, 37, 38, 39) GATHER_BY_VIEW(40, 41, 42, 43) GATHER_BY_VIEW(44, 45, 46, 47)
+    GATHER_BY_VIEW(48, 49, 50, 51) GATHER_BY_VIEW(52, 53, 54, 55) GATHER_BY_VIEW(56, 57, 58, 59) GATHER_BY_VIEW(60, 61, 62, 63)
+    return sums;
+}
+
+#define PLACE_PAIR(k, one, other) if (SAMPLE_COUNT / 2u > uint(k)) place_pair(v, view, mixture_entry(view, odd + uint(k)), one, other);
+#define ADD_PAIR(k, one, other) if (SAMPLE_COUNT / 2u > uint(k)) { add_lookup(sums, one, v.layer); add_lookup(sums, other, v.layer); }
+#define GATHER_PAIRS(a, b) PLACE_PAIR(a, l0, l1) PLACE_PAIR(b, l2, l3) ADD_PAIR(a, l0, l1) ADD_PAIR(b, l2, l3)
+
+LobeSums gather_matched(LobeView v, MixtureView view) {
+    LobeSums sums = LobeSums(vec3(0.0), vec3(0.0), 0.0, 0.0, 0.0);
+    Lookup l0, l1, l2, l3;
+    const uint odd = SAMPLE_COUNT & 1u;
+    if (odd == 1u) {
+        place_pair(v, view, mixture_entry(view, 0u), l0, l1);
+        add_lookup(sums, l0, v.layer);
+    }
+    GATHER_PAIRS(0, 1) GATHER_PAIRS(2, 3) GATHER_PAIRS(4, 5) GATHER_PAIRS(6, 7)
+    GATHER_PAIRS(8, 9) GATHER_PAIRS(10, 11) GATHER_PAIRS(12, 13) GATHER_PAIRS(14, 15)
+    GATHER_PAIRS(16, 17) GATHER_PAIRS(18, 19) GATHER_PAIRS(20, 21) GATHER_PAIRS(22, 23)
+    GATHER_PAIRS(24, 25) GATHER_PAIRS(26, 27) GATHER_PAIRS(28, 29) GATHER_PAIRS(30, 31)
+    return sums;
+}
+
+#endif
