@@ -1,0 +1,248 @@
+"""`matched`: mixtures whose centres and lookups together have the lobe's covariance."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+
+from .albedo import blend_albedo, directional_albedo
+from .arrays import Array, as_array, dot, normalize, reflect
+from .cube_map import FACE_AXES, PaddedCube, cube_face_uv, cube_stretch, pad_cube, sample_cube
+from .estimator import LocalFrame, local_frame
+from .kurt_lobe import LobeLike, grazing_factor, schlick_fresnel, slopes
+from .matched_table import Mixture, closest_count, load_table, mixture_at
+from .pyramid import Filter
+
+#: Variance per axis of a bilinear lookup at level l, in 4^l level-0 texels squared, by the pyramid's filter.
+LOOKUP_VARIANCE = {"box": 0.25, "gauss4": 5 / 12, "gauss6": 7 / 12}
+_SMALL = 1e-9
+
+
+@dataclass(frozen=True)
+class Matched:
+    """Settings of the fitted mixtures, as `burnish.Matched`."""
+
+    samples: int = 14
+
+
+@dataclass(frozen=True)
+class Lookups:
+    """What is read: directions in the map's axes (..., n, 3), levels (..., n) and weights."""
+
+    direction: Array
+    level: Array
+    weight: Array  # (..., n, 3), of any scale
+
+
+def lobe_map(omega_o: npt.ArrayLike, mx: float, my: float) -> tuple[Array, Array, Array, Array]:
+    """Linear map from half-vectors to directions around the mirror direction I.
+
+    With x = (hx/(mx hz), hy/(my hz)) and e = o_xy/|o_xy|: c^2 = max(oz, .03)^2 + (ox mx)^2 + (oy my)^2,
+    L = 2 [[ex mx, ey my], [-ey mx c, ex my c]] in the basis T1 = (oz e, |o_xy|), T2 = (-ey, ex, 0) across I.
+
+    Returns
+    -------
+    matrix : (..., 2, 2)
+    t1, t2 : (..., 3)
+        Local axes.
+    stretch : (...)
+        c.
+    """
+    omega_o = as_array(omega_o)
+    x, y, z = np.moveaxis(omega_o, -1, 0)
+    sin_o = np.hypot(x, y)
+    safe = np.where(sin_o > _SMALL, sin_o, 1.0)
+    ex = np.where(sin_o > _SMALL, x / safe, 1.0)
+    ey = np.where(sin_o > _SMALL, y / safe, 0.0)
+    c = np.sqrt(np.maximum(z, 0.03) ** 2 + (x * mx) ** 2 + (y * my) ** 2)
+    rows = [np.stack([ex * mx, ey * my], axis=-1), np.stack([-ey * mx * c, ex * my * c], axis=-1)]
+    t1 = normalize(np.stack([z * ex, z * ey, sin_o], axis=-1))
+    t2 = np.stack([-ey, ex, np.zeros_like(x)], axis=-1)
+    return 2 * np.stack(rows, axis=-2), t1, t2, c
+
+
+def cube_metric(mirror: npt.ArrayLike, t1: npt.ArrayLike, t2: npt.ArrayLike, power: float) -> Array:
+    """Metric in which a lookup near `mirror` is round, (..., 2, 2) of determinant 1 in the basis (t1, t2).
+
+    A lookup is round in its face's (u, v): on the sphere it is shorter along the radius of the face than
+    across, by (1 + u^2 + v^2)^(1/2). Here u' = u (1 - v^4), v' = v (1 - u^4), which bends the radii so that they meet
+    across edges; A = q e_r e_r^T + tau tau^T/q, q = (1 + u'^2 + v'^2)^(power/4), tau across the radius.
+    """
+    mirror = as_array(mirror)
+    face, u, v = cube_face_uv(mirror)
+    axes = FACE_AXES[face]
+    bent_u, bent_v = (u * (1 - v**4))[..., None], (v * (1 - u**4))[..., None]
+    across = bent_u * axes[..., 2, :] - bent_v * axes[..., 1, :]
+    tau = normalize(across - dot(across, mirror)[..., None] * mirror)
+    # In the middle of a face any axis does, as q is 1 there.
+    tau = np.where(np.linalg.norm(tau, axis=-1, keepdims=True) > 0.5, tau, t1)
+    radial = np.cross(mirror, tau)
+    q = (1 + bent_u[..., 0] ** 2 + bent_v[..., 0] ** 2) ** (power / 4)
+    r1, r2, a1, a2 = dot(radial, t1), dot(radial, t2), dot(tau, t1), dot(tau, t2)
+    off = q * r1 * r2 + a1 * a2 / q
+    rows = [[q * r1 * r1 + a1 * a1 / q, off], [off, q * r2 * r2 + a2 * a2 / q]]
+    return np.stack([np.stack(row, axis=-1) for row in rows], axis=-2)
+
+
+def principal_axes(matrix: npt.ArrayLike) -> tuple[Array, Array, Array, Array]:
+    """Singular values a >= b of 2 x 2 matrices, and the first right singular vector (v1, v2).
+
+    The second one is (-v2, v1), so that mixtures keep their handedness.
+    """
+    matrix = as_array(matrix)
+    m00, m01, m10, m11 = (matrix[..., i, j] for i in (0, 1) for j in (0, 1))
+    p, t, r = m00**2 + m10**2, m01**2 + m11**2, m00 * m01 + m10 * m11
+    half = np.hypot(0.5 * (p - t), r)
+    a = np.sqrt(0.5 * (p + t) + half)
+    b = np.abs(m00 * m11 - m01 * m10) / a
+    angle = 0.5 * np.arctan2(2 * r, p - t)
+    return a, b, np.cos(angle), np.sin(angle)
+
+
+_NODES = np.array([0.0, np.sqrt(3.0), -np.sqrt(3.0)])
+_SHARES = np.array([2 / 3, 1 / 6, 1 / 6])
+#: Points and weights of a sample's mean, its centre first: 3 x 3 Gauss-Hermite, or the centre and four around.
+NINE_POINTS = (
+    np.stack(np.meshgrid(_NODES, _NODES, indexing="ij"), axis=-1).reshape(9, 2),
+    np.outer(_SHARES, _SHARES).ravel(),
+)
+FIVE_POINTS = (
+    np.array([[0.0, 0.0], [3**0.5, 0.0], [-(3**0.5), 0.0], [0.0, 3**0.5], [0.0, -(3**0.5)]]),
+    np.array([1 / 3, 1 / 6, 1 / 6, 1 / 6, 1 / 6]),
+)
+
+
+@dataclass(frozen=True)
+class Means:
+    """Means over each sample's Gaussian of half-vectors, local axes."""
+
+    gains: Array  # (..., n, 3), E[g]
+    direction: Array  # (..., n, 3), unit
+    variance: Array  # (..., n), per axis
+
+
+def sample_means(
+    omega_o: Array, lobe: LobeLike, mixture: Mixture, axes: tuple[Array, Array, Array, Array], stretch: Array
+) -> Means:
+    """Weight, direction and width of each sample: the means over its Gaussian of half-vectors.
+
+    With g = F cos_i^(1-alpha) cos_o^-alpha/cos_h, 0 below the horizon, G = E[g] and M = E[g omega_i]: the
+    direction is M/|M|, the weight G for each channel, the variance -ln(|M|/G) with F of the channels' mean.
+    The variance is at least a share of the linear map's at the centre, (s b)^2 (o.h) cos_h^3/c.
+
+    Parameters
+    ----------
+    omega_o : (..., 3)
+        Local views.
+    axes : (a, b, v1, v2), (...) each
+        From `principal_axes`.
+    stretch : (...)
+        From `lobe_map`.
+    """
+    mx, my = slopes(lobe)
+    a, b, v1, v2 = (axis[..., None, None] for axis in axes)
+    few = max(mx, my) <= 0.3
+    offsets, shares = FIVE_POINTS if few else NINE_POINTS
+    s = mixture.s[..., None]
+    y1 = mixture.y1[..., None] + s * b / a * offsets[:, 0]
+    y2 = mixture.y2[..., None] + s * offsets[:, 1]
+    p = np.stack([mx * (v1 * y1 - v2 * y2), my * (v2 * y1 + v1 * y2), np.ones_like(y1)], axis=-1)
+    length = np.linalg.norm(p, axis=-1)
+    h = p / length[..., None]
+    o = omega_o[..., None, None, :]
+    o_h = dot(o, h)
+    omega_i = reflect(o, h)
+    grazing = grazing_factor(np.where(o_h > 0, omega_i[..., 2], 0.0), o[..., 2], lobe.alpha)
+    value = shares * length * grazing
+    schlick = schlick_fresnel(o_h, 0.0)
+    r0 = np.broadcast_to(as_array(lobe.r0), 3)
+    gains = blend_albedo(np.stack([np.sum(value, axis=-1), np.sum(value * schlick, axis=-1)], axis=-1), r0)
+    grey = value * schlick_fresnel(o_h, np.mean(r0))
+    gain = np.sum(grey, axis=-1)
+    mean = np.sum(grey[..., None] * omega_i, axis=-2)
+    seen = gain > _SMALL
+    size = np.where(seen, np.linalg.norm(mean, axis=-1), 1.0)
+    share = 0.8 if few else 0.5
+    linear = (
+        (mixture.s * b[..., 0]) ** 2 * np.maximum(o_h[..., 0], 0) / length[..., 0] ** 3 / stretch[..., None]
+    )
+    variance = -np.log(np.clip(size / np.where(seen, gain, 1.0), 1e-6, 1.0))
+    direction = np.where(seen[..., None], mean / size[..., None], omega_o[..., None, :] * [-1.0, -1.0, 1.0])
+    return Means(
+        np.where(seen[..., None], gains, 0.0),
+        direction,
+        np.clip(np.maximum(variance, share * linear), 1e-20, 1.0),
+    )
+
+
+def level_shift(rho: npt.ArrayLike, samples: int, roughness: float) -> Array:
+    """Levels to add: centres that are far apart against their widths want wider lookups.
+
+    S = -.05 + .16 t + .15 max(0, t - 1) + .04 clamp((m - .15)/.15), t = min(3, rho/n), m the wider roughness.
+    """
+    t = np.minimum(3.0, as_array(rho) / samples)
+    wide = min(max((roughness - 0.15) / 0.15, 0.0), 1.0)
+    shift: Array = -0.05 + 0.16 * t + 0.15 * np.maximum(0.0, t - 1) + 0.04 * wide
+    return shift
+
+
+def matched_lookups(
+    frame: LocalFrame, lobe: LobeLike, samples: int, rows: Array, face_texels: int, filter: Filter = "gauss6"
+) -> Lookups:
+    """Place the mixture of one count at surface points (maths.md, section 6)."""
+    mx, my = slopes(lobe)
+    to_direction, t1, t2, stretch = lobe_map(frame.omega_o, mx, my)
+    mirror = frame.omega_o * [-1.0, -1.0, 1.0]
+    world = frame.to_world(np.stack([mirror, t1, t2], axis=-2))
+    power = 1 / (1 + (max(mx, my) / 0.25) ** 3)
+    metric = cube_metric(world[..., 0, :], world[..., 1, :], world[..., 2, :], power)
+    axes = principal_axes(metric @ to_direction)
+    rho = axes[0] / axes[1]
+    mixture = mixture_at(rows, samples, rho)
+    means = sample_means(frame.omega_o, lobe, mixture, axes, stretch)
+    direction = frame.to_world(means.direction)
+    r = cube_stretch(direction)
+    # A lookup is as wide in (u, v) as sigma r^2 along its face's radius and sigma r across.
+    variance = 2 * means.variance / (r**-4 + r**-2)
+    level = 0.5 * np.log2(variance * face_texels / (4 * LOOKUP_VARIANCE[filter]))
+    level = level + level_shift(rho, samples, max(mx, my))[..., None]
+    return Lookups(
+        direction, np.clip(level, 0, 0.5 * np.log2(face_texels)), mixture.w[..., None] * means.gains
+    )
+
+
+def shade_matched(
+    levels: PaddedCube | Sequence[npt.ArrayLike],
+    n: npt.ArrayLike,
+    t: npt.ArrayLike,
+    omega_o: npt.ArrayLike,
+    lobe: LobeLike,
+    samples: int,
+    filter: Filter = "gauss6",
+) -> Array:
+    """Radiance of one lobe, sum w L/sum w times the directional albedo: exact under constant light.
+
+    Parameters
+    ----------
+    levels : the map's levels, or a `PaddedCube`
+    n, t, omega_o : (..., 3)
+        Normals, tangents and views in the map's axes.
+    samples : int
+        The closest of `COUNTS` is taken.
+    filter : "box", "gauss4" or "gauss6"
+        What made the levels.
+
+    Returns
+    -------
+    radiance : (..., 3)
+    """
+    cube = pad_cube(levels)
+    frame = local_frame(n, t, omega_o, lobe.rotation)
+    count = closest_count(samples)
+    lookups = matched_lookups(frame, lobe, count, load_table()[count], cube.face_texels, filter)
+    radiance = sample_cube(cube, lookups.direction, lookups.level)
+    total, weights = np.sum(lookups.weight * radiance, axis=-2), np.sum(lookups.weight, axis=-2)
+    albedo = blend_albedo(directional_albedo(frame.omega_o, slopes(lobe), lobe.alpha), lobe.r0)
+    mean = np.where(weights > 0, total / np.where(weights > 0, weights, 1.0) * albedo, 0.0)
+    return as_array(lobe.weight) * mean
