@@ -2,20 +2,27 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Literal
 
 import numpy as np
 import numpy.typing as npt
 
 from .albedo import blend_albedo, directional_albedo
 from .arrays import Array, as_array, dot, normalize, reflect
-from .cube_map import FACE_AXES, PaddedCube, cube_face_uv, cube_stretch, pad_cube, sample_cube
+from .cube_map import FACE_AXES, PaddedCube, cube_direction, cube_face_uv, pad_cube, sample_cube
 from .estimator import LocalFrame, local_frame
+from .footprint import planar_level
 from .kurt_lobe import LobeLike, grazing_factor, schlick_fresnel, slopes
 from .matched_table import Mixture, closest_count, load_table, mixture_at
 from .pyramid import Filter
 
-#: Variance per axis of a bilinear lookup at level l, in 4^l level-0 texels squared, by the pyramid's filter.
-LOOKUP_VARIANCE = {"box": 0.25, "gauss4": 5 / 12, "gauss6": 7 / 12}
+MapFilter = Filter | Literal["sphere"]
+
+#: Variance per axis of a lookup at level l of the spherical pyramid, in 4^l (2/N)^2 steradian: .75 of the level
+#: and what bilinear interpolation adds, 1/6 on a face and half of it on the sphere.
+SPHERICAL_VARIANCE = 0.85
+#: How far lookups of planar pyramids move toward the middle of their face, in units of their variance.
+INWARD_SHIFT = 0.6
 _SMALL = 1e-9
 
 
@@ -24,6 +31,7 @@ class Matched:
     """Settings of the fitted mixtures, as `burnish.Matched`."""
 
     samples: int = 14
+    filter: MapFilter = "sphere"
 
 
 @dataclass(frozen=True)
@@ -66,8 +74,8 @@ def cube_metric(mirror: npt.ArrayLike, t1: npt.ArrayLike, t2: npt.ArrayLike, pow
     """Metric in which a lookup near `mirror` is round, (..., 2, 2) of determinant 1 in the basis (t1, t2).
 
     A lookup is round in its face's (u, v): on the sphere it is shorter along the radius of the face than
-    across, by (1 + u^2 + v^2)^(1/2). Here u' = u (1 - v^4), v' = v (1 - u^4), which bends the radii so that they meet
-    across edges; A = q e_r e_r^T + tau tau^T/q, q = (1 + u'^2 + v'^2)^(power/4), tau across the radius.
+    across, by (1 + u^2 + v^2)^(1/2). Here u' = u (1 - v^4), v' = v (1 - u^4), which bends the radii so that
+    they meet across edges; A = q e_r e_r^T + tau tau^T/q, q = (1 + u'^2 + v'^2)^(power/4), tau across the radius.
     """
     mirror = as_array(mirror)
     face, u, v = cube_face_uv(mirror)
@@ -102,7 +110,7 @@ def principal_axes(matrix: npt.ArrayLike) -> tuple[Array, Array, Array, Array]:
 
 _NODES = np.array([0.0, np.sqrt(3.0), -np.sqrt(3.0)])
 _SHARES = np.array([2 / 3, 1 / 6, 1 / 6])
-#: Points and weights of a sample's mean, its centre first: 3 x 3 Gauss-Hermite, or the centre and four around.
+#: Points and weights of a sample's mean, the centre first: 3 x 3 Gauss-Hermite, or the centre and four around.
 NINE_POINTS = (
     np.stack(np.meshgrid(_NODES, _NODES, indexing="ij"), axis=-1).reshape(9, 2),
     np.outer(_SHARES, _SHARES).ravel(),
@@ -187,29 +195,51 @@ def level_shift(rho: npt.ArrayLike, samples: int, roughness: float) -> Array:
     return shift
 
 
+def move_inward(direction: Array, variance: Array) -> Array:
+    """Move wide lookups of planar pyramids toward the middle of their face.
+
+    Kernels of one width in (u, v) carry light toward the corners, where a face has more texels per steradian.
+    (u, v) is scaled by 1 - k v/r^2, v the variance in (u, v), at most 1/2.
+    """
+    face, u, v = cube_face_uv(direction)
+    r2 = 1 + u * u + v * v
+    uv_variance = 2 * variance / (r2**-2 + 1 / r2)
+    scale = 1 - INWARD_SHIFT * np.minimum(uv_variance, 0.5) / r2
+    return cube_direction(face, u * scale, v * scale)
+
+
 def matched_lookups(
-    frame: LocalFrame, lobe: LobeLike, samples: int, rows: Array, face_texels: int, filter: Filter = "gauss6"
+    frame: LocalFrame,
+    lobe: LobeLike,
+    samples: int,
+    rows: Array,
+    face_texels: int,
+    filter: MapFilter = "sphere",
 ) -> Lookups:
-    """Place the mixture of one count at surface points (maths.md, section 6)."""
+    """Place the mixture of one count at surface points (maths.md, section 6).
+
+    Under the spherical pyramid nothing but the directions' rotation depends on the frame.
+    """
     mx, my = slopes(lobe)
-    to_direction, t1, t2, stretch = lobe_map(frame.omega_o, mx, my)
-    mirror = frame.omega_o * [-1.0, -1.0, 1.0]
-    world = frame.to_world(np.stack([mirror, t1, t2], axis=-2))
-    power = 1 / (1 + (max(mx, my) / 0.25) ** 3)
-    metric = cube_metric(world[..., 0, :], world[..., 1, :], world[..., 2, :], power)
-    axes = principal_axes(metric @ to_direction)
+    matrix, t1, t2, stretch = lobe_map(frame.omega_o, mx, my)
+    if filter != "sphere":
+        mirror = frame.omega_o * [-1.0, -1.0, 1.0]
+        world = frame.to_world(np.stack([mirror, t1, t2], axis=-2))
+        power = 1 / (1 + (max(mx, my) / 0.25) ** 3)
+        matrix = cube_metric(world[..., 0, :], world[..., 1, :], world[..., 2, :], power) @ matrix
+    axes = principal_axes(matrix)
     rho = axes[0] / axes[1]
     mixture = mixture_at(rows, samples, rho)
     means = sample_means(frame.omega_o, lobe, mixture, axes, stretch)
     direction = frame.to_world(means.direction)
-    r = cube_stretch(direction)
-    # A lookup is as wide in (u, v) as sigma r^2 along its face's radius and sigma r across.
-    variance = 2 * means.variance / (r**-4 + r**-2)
-    level = 0.5 * np.log2(variance * face_texels / (4 * LOOKUP_VARIANCE[filter]))
+    if filter == "sphere":
+        level = 0.5 * np.log2(means.variance * (face_texels / (4 * SPHERICAL_VARIANCE)))
+    else:
+        level = planar_level(means.variance, direction, face_texels, filter)
+        direction = move_inward(direction, means.variance)
     level = level + level_shift(rho, samples, max(mx, my))[..., None]
-    return Lookups(
-        direction, np.clip(level, 0, 0.5 * np.log2(face_texels)), mixture.w[..., None] * means.gains
-    )
+    last = 0.5 * np.log2(face_texels)
+    return Lookups(direction, np.clip(level, 0, last), mixture.w[..., None] * means.gains)
 
 
 def shade_matched(
@@ -219,7 +249,7 @@ def shade_matched(
     omega_o: npt.ArrayLike,
     lobe: LobeLike,
     samples: int,
-    filter: Filter = "gauss6",
+    filter: MapFilter = "sphere",
 ) -> Array:
     """Radiance of one lobe, sum w L/sum w times the directional albedo: exact under constant light.
 
@@ -230,8 +260,8 @@ def shade_matched(
         Normals, tangents and views in the map's axes.
     samples : int
         The closest of `COUNTS` is taken.
-    filter : "box", "gauss4" or "gauss6"
-        What made the levels.
+    filter : "sphere", "box", "gauss4" or "gauss6"
+        What made the levels: `build_spherical_pyramid`, or `build_pyramid` with one of its filters.
 
     Returns
     -------

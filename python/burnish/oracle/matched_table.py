@@ -48,7 +48,8 @@ def closest_count(samples: int) -> int:
     """Count that has a mixture and is closest to `samples`; of equally close ones the larger."""
     if samples < 1:
         raise ValueError(f"samples: expected an integer >= 1, got {samples}")
-    return sorted(COUNTS, key=lambda count: (abs(count - samples), -count))[0]
+    ranked: list[int] = sorted(COUNTS, key=lambda count: (abs(count - samples), -count))
+    return ranked[0]
 
 
 def mixture_at(rows: Array, samples: int, rho: npt.ArrayLike) -> Mixture:
