@@ -75,8 +75,8 @@ def planar_level(
 ) -> Array:
     """Level at which a lookup has this variance per axis of angle, not clamped.
 
-    A kernel round in a face's (u, v) spans r^-2 of its width on the sphere along the radius of the face and r^-1
-    across: v = 2 variance/(r^-4 + r^-2) in (u, v), and c_f 4^l texels squared are c_f 4^l 4/face_texels.
+    A kernel round in a face's (u, v) spans r^-2 of its width on the sphere along the radius of the face and
+    r^-1 across: v = 2 variance/(r^-4 + r^-2) in (u, v), and c_f 4^l texels squared are c_f 4^l 4/face_texels.
 
     Parameters
     ----------

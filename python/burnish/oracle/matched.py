@@ -2,27 +2,31 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Literal
+from typing import Any, Literal
 
 import numpy as np
 import numpy.typing as npt
 
 from .albedo import blend_albedo, directional_albedo
-from .arrays import Array, as_array, dot, normalize, reflect
-from .cube_map import FACE_AXES, PaddedCube, cube_direction, cube_face_uv, pad_cube, sample_cube
+from .arrays import Array, as_array, dot, reflect
+from .cube_map import PaddedCube, cube_direction, cube_face_uv, pad_cube, sample_cube
 from .estimator import LocalFrame, local_frame
 from .footprint import planar_level
 from .kurt_lobe import LobeLike, grazing_factor, schlick_fresnel, slopes
+from .lobe_map import cube_metric, lobe_map, principal_axes
 from .matched_table import Mixture, closest_count, load_table, mixture_at
-from .pyramid import Filter
+from .pyramid import Filter, build_pyramid
+from .spherical_pyramid import build_spherical_pyramid
+from .sun_split import Sun, shade_suns, split_suns
 
 MapFilter = Filter | Literal["sphere"]
 
-#: Variance per axis of a lookup at level l of the spherical pyramid, in 4^l (2/N)^2 steradian: .75 of the level
-#: and what bilinear interpolation adds, 1/6 on a face and half of it on the sphere.
+#: Variance per axis of a lookup at level l of the spherical pyramid, in 4^l (2/N)^2 steradian: .75 of the
+#: level and what bilinear interpolation adds, 1/6 on a face and about .1 on the sphere.
 SPHERICAL_VARIANCE = 0.85
 #: How far lookups of planar pyramids move toward the middle of their face, in units of their variance.
 INWARD_SHIFT = 0.6
+# A mean of g below this is none: the sample lies below the horizon.
 _SMALL = 1e-9
 
 
@@ -31,7 +35,8 @@ class Matched:
     """Settings of the fitted mixtures, as `burnish.Matched`."""
 
     samples: int = 14
-    filter: MapFilter = "sphere"
+    filter: MapFilter = "sphere"  # what makes the levels it reads
+    split_suns: bool = True
 
 
 @dataclass(frozen=True)
@@ -43,74 +48,9 @@ class Lookups:
     weight: Array  # (..., n, 3), of any scale
 
 
-def lobe_map(omega_o: npt.ArrayLike, mx: float, my: float) -> tuple[Array, Array, Array, Array]:
-    """Linear map from half-vectors to directions around the mirror direction I.
-
-    With x = (hx/(mx hz), hy/(my hz)) and e = o_xy/|o_xy|: c^2 = max(oz, .03)^2 + (ox mx)^2 + (oy my)^2,
-    L = 2 [[ex mx, ey my], [-ey mx c, ex my c]] in the basis T1 = (oz e, |o_xy|), T2 = (-ey, ex, 0) across I.
-
-    Returns
-    -------
-    matrix : (..., 2, 2)
-    t1, t2 : (..., 3)
-        Local axes.
-    stretch : (...)
-        c.
-    """
-    omega_o = as_array(omega_o)
-    x, y, z = np.moveaxis(omega_o, -1, 0)
-    sin_o = np.hypot(x, y)
-    safe = np.where(sin_o > _SMALL, sin_o, 1.0)
-    ex = np.where(sin_o > _SMALL, x / safe, 1.0)
-    ey = np.where(sin_o > _SMALL, y / safe, 0.0)
-    c = np.sqrt(np.maximum(z, 0.03) ** 2 + (x * mx) ** 2 + (y * my) ** 2)
-    rows = [np.stack([ex * mx, ey * my], axis=-1), np.stack([-ey * mx * c, ex * my * c], axis=-1)]
-    t1 = normalize(np.stack([z * ex, z * ey, sin_o], axis=-1))
-    t2 = np.stack([-ey, ex, np.zeros_like(x)], axis=-1)
-    return 2 * np.stack(rows, axis=-2), t1, t2, c
-
-
-def cube_metric(mirror: npt.ArrayLike, t1: npt.ArrayLike, t2: npt.ArrayLike, power: float) -> Array:
-    """Metric in which a lookup near `mirror` is round, (..., 2, 2) of determinant 1 in the basis (t1, t2).
-
-    A lookup is round in its face's (u, v): on the sphere it is shorter along the radius of the face than
-    across, by (1 + u^2 + v^2)^(1/2). Here u' = u (1 - v^4), v' = v (1 - u^4), which bends the radii so that
-    they meet across edges; A = q e_r e_r^T + tau tau^T/q, q = (1 + u'^2 + v'^2)^(power/4), tau across the radius.
-    """
-    mirror = as_array(mirror)
-    face, u, v = cube_face_uv(mirror)
-    axes = FACE_AXES[face]
-    bent_u, bent_v = (u * (1 - v**4))[..., None], (v * (1 - u**4))[..., None]
-    across = bent_u * axes[..., 2, :] - bent_v * axes[..., 1, :]
-    tau = normalize(across - dot(across, mirror)[..., None] * mirror)
-    # In the middle of a face any axis does, as q is 1 there.
-    tau = np.where(np.linalg.norm(tau, axis=-1, keepdims=True) > 0.5, tau, t1)
-    radial = np.cross(mirror, tau)
-    q = (1 + bent_u[..., 0] ** 2 + bent_v[..., 0] ** 2) ** (power / 4)
-    r1, r2, a1, a2 = dot(radial, t1), dot(radial, t2), dot(tau, t1), dot(tau, t2)
-    off = q * r1 * r2 + a1 * a2 / q
-    rows = [[q * r1 * r1 + a1 * a1 / q, off], [off, q * r2 * r2 + a2 * a2 / q]]
-    return np.stack([np.stack(row, axis=-1) for row in rows], axis=-2)
-
-
-def principal_axes(matrix: npt.ArrayLike) -> tuple[Array, Array, Array, Array]:
-    """Singular values a >= b of 2 x 2 matrices, and the first right singular vector (v1, v2).
-
-    The second one is (-v2, v1), so that mixtures keep their handedness.
-    """
-    matrix = as_array(matrix)
-    m00, m01, m10, m11 = (matrix[..., i, j] for i in (0, 1) for j in (0, 1))
-    p, t, r = m00**2 + m10**2, m01**2 + m11**2, m00 * m01 + m10 * m11
-    half = np.hypot(0.5 * (p - t), r)
-    a = np.sqrt(0.5 * (p + t) + half)
-    b = np.abs(m00 * m11 - m01 * m10) / a
-    angle = 0.5 * np.arctan2(2 * r, p - t)
-    return a, b, np.cos(angle), np.sin(angle)
-
-
 _NODES = np.array([0.0, np.sqrt(3.0), -np.sqrt(3.0)])
 _SHARES = np.array([2 / 3, 1 / 6, 1 / 6])
-#: Points and weights of a sample's mean, the centre first: 3 x 3 Gauss-Hermite, or the centre and four around.
+#: Points and weights of a sample's mean, the centre first: 3 x 3 Gauss-Hermite, or five.
 NINE_POINTS = (
     np.stack(np.meshgrid(_NODES, _NODES, indexing="ij"), axis=-1).reshape(9, 2),
     np.outer(_SHARES, _SHARES).ravel(),
@@ -184,14 +124,19 @@ def sample_means(
     )
 
 
-def level_shift(rho: npt.ArrayLike, samples: int, roughness: float) -> Array:
+def level_shift(rho: npt.ArrayLike, samples: int, roughness: float, filter: MapFilter = "sphere") -> Array:
     """Levels to add: centres that are far apart against their widths want wider lookups.
 
-    S = -.05 + .16 t + .15 max(0, t - 1) + .04 clamp((m - .15)/.15), t = min(3, rho/n), m the wider roughness.
+    With t = min(3, rho/n) and the wider roughness m, as measured on training environments:
+    S = -.08 + .22 t + .3 max(0, t - 1) + .36 clamp(m - .15, 0, .45) on the spherical pyramid,
+    S = -.05 + .16 t + .15 max(0, t - 1) + .27 clamp(m - .15, 0, .15) on planar ones.
     """
     t = np.minimum(3.0, as_array(rho) / samples)
-    wide = min(max((roughness - 0.15) / 0.15, 0.0), 1.0)
-    shift: Array = -0.05 + 0.16 * t + 0.15 * np.maximum(0.0, t - 1) + 0.04 * wide
+    far, wide = np.maximum(0.0, t - 1), max(roughness - 0.15, 0.0)
+    if filter == "sphere":
+        shift: Array = -0.08 + 0.22 * t + 0.3 * far + 0.36 * min(wide, 0.45)
+    else:
+        shift = -0.05 + 0.16 * t + 0.15 * far + 0.27 * min(wide, 0.15)
     return shift
 
 
@@ -237,42 +182,67 @@ def matched_lookups(
     else:
         level = planar_level(means.variance, direction, face_texels, filter)
         direction = move_inward(direction, means.variance)
-    level = level + level_shift(rho, samples, max(mx, my))[..., None]
+    level = level + level_shift(rho, samples, max(mx, my), filter)[..., None]
     last = 0.5 * np.log2(face_texels)
     return Lookups(direction, np.clip(level, 0, last), mixture.w[..., None] * means.gains)
 
 
+@dataclass(frozen=True)
+class MatchedMap:
+    """A map as `matched` reads it: levels, what made them, and the suns taken out."""
+
+    cube: PaddedCube
+    filter: MapFilter = "sphere"
+    suns: Sequence[Sun] = ()
+
+
+def read_matched(levels: Sequence[npt.ArrayLike], settings: Any) -> MatchedMap:
+    """Take the suns out of a map and make the levels that `matched` reads.
+
+    Parameters
+    ----------
+    levels : list of (6, n, n, 3)
+        From `build_pyramid` with the filter of the settings, "gauss6" for "sphere".
+    settings : Matched, the oracle's or burnish's
+    """
+    filter: MapFilter = getattr(settings, "filter", "sphere")
+    suns, filled = split_suns(levels[0]) if getattr(settings, "split_suns", True) else ([], levels[0])
+    if suns:
+        levels = build_pyramid(filled, "gauss6" if filter == "sphere" else filter)
+    return MatchedMap(
+        pad_cube(build_spherical_pyramid(levels) if filter == "sphere" else levels), filter, suns
+    )
+
+
 def shade_matched(
-    levels: PaddedCube | Sequence[npt.ArrayLike],
+    light_map: MatchedMap,
     n: npt.ArrayLike,
     t: npt.ArrayLike,
     omega_o: npt.ArrayLike,
     lobe: LobeLike,
     samples: int,
-    filter: MapFilter = "sphere",
 ) -> Array:
-    """Radiance of one lobe, sum w L/sum w times the directional albedo: exact under constant light.
+    """Radiance of one lobe: sum w L/sum w times the directional albedo, exact under constant light; and suns.
 
     Parameters
     ----------
-    levels : the map's levels, or a `PaddedCube`
+    light_map : MatchedMap
+        From `read_matched`.
     n, t, omega_o : (..., 3)
         Normals, tangents and views in the map's axes.
     samples : int
         The closest of `COUNTS` is taken.
-    filter : "sphere", "box", "gauss4" or "gauss6"
-        What made the levels: `build_spherical_pyramid`, or `build_pyramid` with one of its filters.
 
     Returns
     -------
     radiance : (..., 3)
     """
-    cube = pad_cube(levels)
     frame = local_frame(n, t, omega_o, lobe.rotation)
     count = closest_count(samples)
-    lookups = matched_lookups(frame, lobe, count, load_table()[count], cube.face_texels, filter)
+    rows, cube = load_table()[count], light_map.cube
+    lookups = matched_lookups(frame, lobe, count, rows, cube.face_texels, light_map.filter)
     radiance = sample_cube(cube, lookups.direction, lookups.level)
     total, weights = np.sum(lookups.weight * radiance, axis=-2), np.sum(lookups.weight, axis=-2)
     albedo = blend_albedo(directional_albedo(frame.omega_o, slopes(lobe), lobe.alpha), lobe.r0)
     mean = np.where(weights > 0, total / np.where(weights > 0, weights, 1.0) * albedo, 0.0)
-    return as_array(lobe.weight) * mean
+    return as_array(lobe.weight) * (mean + shade_suns(light_map.suns, frame, lobe))

@@ -24,11 +24,11 @@ _CHUNK = 4096
 def build_spherical_pyramid(levels: Sequence[npt.ArrayLike], mixture: Mixture | None = None) -> list[Array]:
     """Filter every level but the first by a Gaussian that is the same everywhere on the sphere.
 
-    Kernels of planar pyramids are round in a face's (u, v): on the sphere they are ellipses whose size and shape
-    depend on the place, and they bend at edges. Here a texel of a level with n texels along an edge is the mean
-    under a Gaussian of variance V = .75 (2/n)^2 per axis of angle. A mixture of `matched` stands for the
-    Gaussian: sample k is a lookup of the planar levels at the angle |y_k| sqrt(2 V) from the texel, of the
-    standard deviation s_k sqrt(2 V).
+    Kernels of planar pyramids are round in a face's (u, v): on the sphere they are ellipses whose size and
+    shape depend on the place, and they bend at edges. Here a texel of a level with n texels along an edge is
+    the mean under a Gaussian of variance V = .75 (2/n)^2 per axis of angle. A mixture of `matched` stands for
+    the Gaussian: sample k is a lookup of the planar levels at the angle |y_k| sqrt(2 V) from the texel, of
+    the standard deviation s_k sqrt(2 V).
 
     Parameters
     ----------

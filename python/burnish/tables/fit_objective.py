@@ -71,8 +71,8 @@ def loss_and_gradient(unknowns: Float64, samples: int, kernel_error: float) -> t
         moments = (sum w - 1, sum w (x1^2 + s^2)/rho^2 - 1/2, sum w (x2^2 + s^2) - 1/2);
 
     the first moments vanish by symmetry. The term of eps is the expected error of lookups whose kernel
-    differs from a Gaussian by a relative eps, alike for neighbours. Neighbouring aspects are drawn together by
-    mu/n |p_{j+1} - p_j|^2/ln(rho_{j+1}/rho_j).
+    differs from a Gaussian by a relative eps, alike for neighbours. Neighbouring aspects are drawn together
+    by mu/n |p_{j+1} - p_j|^2/ln(rho_{j+1}/rho_j).
     """
     mixtures = unpack(samples, unknowns)
     rho = ASPECTS[:, None]

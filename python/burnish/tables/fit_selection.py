@@ -11,8 +11,10 @@ from burnish.oracle.estimator import LocalFrame, local_frame
 from burnish.oracle.frame import frame_from_tangent
 from burnish.oracle.kurt_lobe import KurtLobe
 from burnish.oracle.matched import matched_lookups
+from burnish.oracle.matched_table import Mixture
 from burnish.oracle.pyramid import build_pyramid
 from burnish.oracle.reference import shade_reference
+from burnish.oracle.spherical_pyramid import build_spherical_pyramid
 
 Float64 = NDArray[np.float64]
 
@@ -21,9 +23,9 @@ FACE_SIZE = 256
 #: Lobes of the training points: the widths and aspects that matter.
 ROUGHNESSES = ((0.05, 0.05), (0.1, 0.1), (0.15, 0.15), (0.3, 0.3), (0.6, 0.6), (0.2, 0.075), (0.3, 0.05))
 # Environments per kind, each one channel, and what the logarithm of a kind's error weighs.
-_PER_KIND = 4
+_PER_KIND = 6
 KIND_WEIGHTS = {"spots": 1.0, "smooth": 0.15, "suns": 0.5}
-_POINTS = 120
+_POINTS = 240
 
 
 @dataclass(frozen=True)
@@ -78,8 +80,8 @@ def training_environments(seed: int) -> Float64:
     return np.stack(channels, axis=-1)
 
 
-def make_training(seed: int) -> Training:
-    """Make maps, points and their truth; some minutes."""
+def make_training(seed: int, prefilter: Mixture) -> Training:
+    """Make maps, points and their truth, which takes a minute; `prefilter` makes the spherical pyramid."""
     faces = training_environments(seed)
     points = []
     for k, roughness in enumerate(ROUGHNESSES):
@@ -94,7 +96,7 @@ def make_training(seed: int) -> Training:
         lobe = KurtLobe(roughness)
         light = shade_reference(np.concatenate([faces, np.ones_like(faces[..., :1])], axis=-1), n, t, o, lobe)
         points.append(TrainingPoints(lobe, local_frame(n, t, o), light[:, :-1] / light[:, -1:]))
-    return Training(pad_cube(build_pyramid(faces)), points)
+    return Training(pad_cube(build_spherical_pyramid(build_pyramid(faces), prefilter)), points)
 
 
 def measure(training: Training, samples: int, rows: Float64) -> Float64:
