@@ -19,8 +19,8 @@ ASPECTS: Float64 = 34.0 ** (np.arange(40) / 39)
 WIDTHS = (0.02, 1.2)
 # Greatest weight of a sample, in units of 1/n.
 _MOST_WEIGHT = 4.0
-# Weight of the moments, and of the roughness along the aspect.
-_MOMENTS, _SMOOTHNESS = 3.0, 1e-3
+# Weight of the roughness along the aspect.
+_SMOOTHNESS = 1e-3
 # A trilinear lookup's error is correlated over this share of the variance of the lookups.
 _CORRELATION = 0.3
 
@@ -61,7 +61,9 @@ def node_weights(samples: int) -> Float64:
     return result
 
 
-def loss_and_gradient(unknowns: Float64, samples: int, kernel_error: float) -> tuple[float, Float64]:
+def loss_and_gradient(
+    unknowns: Float64, samples: int, kernel_error: float, moment_weight: float
+) -> tuple[float, Float64]:
     """Sum of the losses of all aspects, and its gradient.
 
     With the lobe K = N(0, diag(rho^2, 1)/2), x = (rho y1, y2), G_k = N(x_k, s_k^2 I), v_jk = s_j^2 + s_k^2:
@@ -72,7 +74,7 @@ def loss_and_gradient(unknowns: Float64, samples: int, kernel_error: float) -> t
 
     the first moments vanish by symmetry. The term of eps is the expected error of lookups whose kernel
     differs from a Gaussian by a relative eps, alike for neighbours. Neighbouring aspects are drawn together
-    by mu/n |p_{j+1} - p_j|^2/ln(rho_{j+1}/rho_j).
+    by mu/n |p_{j+1} - p_j|^2/ln(rho_{j+1}/rho_j). `kernel_error` is eps, `moment_weight` lambda.
     """
     mixtures = unpack(samples, unknowns)
     rho = ASPECTS[:, None]
@@ -115,8 +117,8 @@ def loss_and_gradient(unknowns: Float64, samples: int, kernel_error: float) -> t
     total = np.sum(mass, axis=1) - 1
     spread1 = np.sum(mass * (x1**2 + s2), axis=1) / ASPECTS**2 - 0.5
     spread2 = np.sum(mass * (x2**2 + s2), axis=1) - 0.5
-    loss += _MOMENTS * (total**2 + spread1**2 + spread2**2)
-    m0, m1, m2 = (2 * _MOMENTS * m[:, None] for m in (total, spread1 / ASPECTS**2, spread2))
+    loss += moment_weight * (total**2 + spread1**2 + spread2**2)
+    m0, m1, m2 = (2 * moment_weight * m[:, None] for m in (total, spread1 / ASPECTS**2, spread2))
     d_mass += m0 + m1 * (x1**2 + s2) + m2 * (x2**2 + s2)
     d_x1 += 2 * mass * x1 * m1
     d_x2 += 2 * mass * x2 * m2
@@ -170,7 +172,9 @@ def quantiser(samples: int, aspect: float, seed: int) -> Mixtures:
     return Mixtures(samples, centres[:, 0] / aspect * rows, centres[:, 1] * rows, log_s * rows, share * rows)
 
 
-def fit(start: Mixtures, kernel_error: float, iterations: int) -> tuple[float, Mixtures]:
+def fit(
+    start: Mixtures, kernel_error: float, moment_weight: float, iterations: int
+) -> tuple[float, Mixtures]:
     """Minimise the loss from a start by L-BFGS within the bounds; return the loss and the mixtures."""
     size = start.y1.size
     bounds = (
@@ -181,7 +185,7 @@ def fit(start: Mixtures, kernel_error: float, iterations: int) -> tuple[float, M
     result = minimize(
         loss_and_gradient,
         start.unknowns,
-        args=(start.samples, kernel_error),
+        args=(start.samples, kernel_error, moment_weight),
         jac=True,
         method="L-BFGS-B",
         bounds=bounds,
