@@ -17,7 +17,7 @@ struct MixtureView {
     vec3 h, p;
     float oh, h2, p2;    // o.h, |h|^2, |p|^2
     float linear;        // b^2/c: a component's variance over s^2 (o.h) cos_h^3
-    float texels;        // face_texels/(4 SPHERICAL_VARIANCE) 2^(2 S)
+    float share;         // 4^S of level 1's for a variance of 1: see spherical_level
     int row;             // its first entry in the table
     vec2 fresnel;        // F = x + y (1 - o.h)^5 over all channels: weighs directions within a component
 };
@@ -70,7 +70,7 @@ mat3 mirror_frame(LobeView v) {
     return mat3(v.local_o.z * plane + sine * v.frame[2], e.x * v.frame[1] - e.y * v.frame[0], 2.0 * v.local_o.z * v.frame[2] - v.omega_o);
 }
 
-MixtureView view_mixture(LobeView v, uint table_begin, float texel_factor, vec3 specular, vec3 grazing) {
+MixtureView view_mixture(LobeView v, uint table_begin, float variance_share, vec3 specular, vec3 grazing) {
     float widest = max(v.roughness.x, v.roughness.y);
     LobeAxes axes = lobe_axes(v.local_o, v.roughness);
 
@@ -88,11 +88,11 @@ MixtureView view_mixture(LobeView v, uint table_begin, float texel_factor, vec3 
     view.p = (-u.y * inverse_rho) * view.g1 + u.x * view.g2;
     view.oh = dot(u, slope);
     view.p2 = dot(view.p, view.p);
-    view.linear = NARROW_VARIANCE * axes.minor * axes.minor / axes.foreshortening;
+    view.linear = axes.minor * axes.minor / axes.foreshortening;
     view.h2 = dot(view.h, view.h);
     float t = min(axes.rho / float(SAMPLE_COUNT), 3.0);
-    float shift = -0.05 + 0.16 * t + 0.15 * max(t - 1.0, 0.0) + 0.04 * clamp((widest - 0.15) / 0.15, 0.0, 1.0);
-    view.texels = texel_factor * exp2(2.0 * shift);
+    float shift = -0.08 + 0.22 * t + 0.3 * max(t - 1.0, 0.0) + 0.36 * clamp(widest - 0.15, 0.0, 0.45);
+    view.share = variance_share * exp2(2.0 * shift);
     float node = log2(axes.rho) * (float(MATCHED_ROWS - 1u) / MATCHED_LOG2_LARGEST_RHO) + 0.5;
     view.row = int(table_begin) + int((SAMPLE_COUNT + 1u) / 2u) * int(node < float(MATCHED_ROWS - 1u) ? node : float(MATCHED_ROWS - 1u));
     // Where nothing is reflected, some direction must still come out.
@@ -118,14 +118,18 @@ struct Component {
     vec3 direction; // sum of F w omega_i, environment space
 };
 
-// `texels`: the square of the lookup's width in texels of level 0.
-Lookup finish_component(Component component, float weight, float texels) {
+// Level at which a lookup has a variance, given as a share of level 1's: 4^l grows with the level, but level 0 is not filtered, and
+// below level 1 the mix of both has that share of level 1.
+float spherical_level(float share) { return share > 1.0 ? 1.0 + 0.5 * log2(share) : share; }
+
+// `share`: see spherical_level.
+Lookup finish_component(Component component, float weight, float share) {
     Lookup lookup;
     lookup.direction = component.direction;
     lookup.weight = weight * component.base;
     lookup.schlick = HAS_FRESNEL ? component.schlick / component.base : 0.0;
     lookup.density = 0.0;
-    lookup.level = mip_level(texels);
+    lookup.level = spherical_level(share);
     return lookup;
 }
 
@@ -180,23 +184,21 @@ void add_point(LobeView v, MixtureView view, vec3 offset, float share, inout Com
     component.direction += weight * (q * g - v.omega_o);
 }
 
-// A wide component by 3x3 Gauss-Hermite points; its variance is -ln(|M|/G).
+// A wide component by its centre and four corners at sqrt(1.2) deviations: exact to the third degree, and of the rules of up to nine
+// points the one that errs least on wide lobes. Its variance is -ln(|M|/G).
 Lookup place_wide(LobeView v, MixtureView view, Pair pair, vec3 d, float og) {
-    vec3 across = (1.7320508 * pair.s) * view.p, along = (1.7320508 * pair.s) * view.h;
+    vec3 across = (1.0954451 * pair.s) * view.p, along = (1.0954451 * pair.s) * view.h;
     Component component = Component(0.0, 0.0, 0.0, vec3(0.0));
-    add_point(v, view, d, 4.0 / 9.0, component);
-    add_point(v, view, d - across, 1.0 / 9.0, component);
-    add_point(v, view, d + across, 1.0 / 9.0, component);
-    add_point(v, view, d - along, 1.0 / 9.0, component);
-    add_point(v, view, d + along, 1.0 / 9.0, component);
-    add_point(v, view, d - across - along, 1.0 / 36.0, component);
-    add_point(v, view, d + across - along, 1.0 / 36.0, component);
-    add_point(v, view, d - across + along, 1.0 / 36.0, component);
-    add_point(v, view, d + across + along, 1.0 / 36.0, component);
+    add_point(v, view, d, 4.0 / 24.0, component);
+    add_point(v, view, d - across - along, 5.0 / 24.0, component);
+    add_point(v, view, d + across - along, 5.0 / 24.0, component);
+    add_point(v, view, d - across + along, 5.0 / 24.0, component);
+    add_point(v, view, d + across + along, 5.0 / 24.0, component);
     float variance = -0.34657359 * log2(dot(component.direction, component.direction) / (component.gain * component.gain));
-    float least = 0.5 * pair.s * pair.s * view.linear * og * pair.inverse.x * pair.inverse.y;
+    float center2 = 1.0 + dot(d, d);
+    float least = 0.5 * pair.s * pair.s * view.linear * og / (center2 * center2);
     variance = clamp(variance, max(least, 1e-7), 1.0);
-    return finish_component(component, pair.weight, view.texels * variance);
+    return finish_component(component, pair.weight, view.share * variance);
 }
 
 void place_pair(LobeView v, MixtureView view, vec4 entry, out Lookup one, out Lookup other) {
@@ -219,7 +221,7 @@ void place_pair(LobeView v, MixtureView view, vec4 entry, out Lookup one, out Lo
         return;
     }
     // (s b)^2 (o.h) cos_h^3/c, the variance of the linear map at the centre; og is left to each.
-    pair.variance = s2 * view.texels * view.linear * (pair.inverse.x * pair.inverse.y);
+    pair.variance = NARROW_VARIANCE * s2 * view.share * view.linear * (pair.inverse.x * pair.inverse.y);
     pair.bend = 1.0 - s2 * view.p2;
     one = place_narrow(v, view, pair, pair.d, v.local_o.z + od, pair.lengths, pair.inverse);
     other = place_narrow(v, view, pair, -pair.d, v.local_o.z - od, pair.lengths.yx, pair.inverse.yx);
@@ -228,10 +230,10 @@ void place_pair(LobeView v, MixtureView view, vec4 entry, out Lookup one, out Lo
 vec4 mixture_entry(MixtureView view, uint which) { return imageLoad(sample_table, view.row + int(which)); }
 
 // The entry's lookup at this view: see build_matched_view_table.
-Lookup place_by_view(mat3 mirror_frame, float level, vec4 entry, float schlick) {
+Lookup place_by_view(mat3 mirror_frame, vec4 entry, float schlick) {
     Lookup lookup;
     lookup.direction = entry.x * mirror_frame[0] + entry.y * mirror_frame[1] + (0.5 - 0.5 * dot(entry.xy, entry.xy)) * mirror_frame[2];
-    lookup.level = level + entry.w;
+    lookup.level = entry.w;
     lookup.weight = entry.z;
     lookup.schlick = schlick;
     lookup.density = 0.0;
@@ -239,19 +241,18 @@ Lookup place_by_view(mat3 mirror_frame, float level, vec4 entry, float schlick) 
 }
 
 #define VIEW_ENTRY(k) imageLoad(sample_table, row + k)
-#define PLACE_BY_VIEW(k, c, lookup) if (SAMPLE_COUNT > uint(k)) lookup = place_by_view(mirror_frame, level, VIEW_ENTRY(k), schlick[c]);
+#define PLACE_BY_VIEW(k, c, lookup) if (SAMPLE_COUNT > uint(k)) lookup = place_by_view(mirror_frame, VIEW_ENTRY(k), schlick[c]);
 #define GATHER_BY_VIEW(a, b, c, d)                                                                                     \
     if (HAS_FRESNEL && SAMPLE_COUNT > uint(a)) schlick = VIEW_ENTRY(int(SAMPLE_COUNT) + a / 4);                        \
     PLACE_BY_VIEW(a, 0, l0) PLACE_BY_VIEW(b, 1, l1) PLACE_BY_VIEW(c, 2, l2) PLACE_BY_VIEW(d, 3, l3)                    \
     ADD(a, l0) ADD(b, l1) ADD(c, l2) ADD(d, l3)
 
-LobeSums gather_by_view(LobeView v, uint table_begin, float texel_factor) {
+LobeSums gather_by_view(LobeView v, uint table_begin) {
     LobeSums sums = LobeSums(vec3(0.0), vec3(0.0), 0.0, 0.0, 0.0);
     const uint entries = SAMPLE_COUNT + (HAS_FRESNEL ? (SAMPLE_COUNT + 3u) / 4u : 0u);
     float x = sqrt(clamp(v.local_o.z, 0.0, 1.0)) * float(MATCHED_ROWS - 1u) + 0.5;
     int row = int(table_begin) + int(entries) * int(x);
     mat3 mirror_frame = mirror_frame(v);
-    float level = 0.5 * log2(texel_factor);
     vec4 schlick = vec4(0.0);
     Lookup l0, l1, l2, l3;
     GATHER_BY_VIEW(0, 1, 2, 3) GATHER_BY_VIEW(4, 5, 6, 7) GATHER_BY_VIEW(8, 9, 10, 11) GATHER_BY_VIEW(12, 13, 14, 15)

@@ -28,9 +28,9 @@ vec3 shade_lobe(PointToShade point, MapRecord map, uint lobe_index, uint which) 
 
     LobeSums sums;
     if (TABLE == TABLE_MATCHED)
-        sums = gather_matched(v, view_mixture(v, record.table_begin, record.texel_factor, lobe.specular, lobe.grazing));
+        sums = gather_matched(v, view_mixture(v, record.table_begin, record.variance_share, lobe.specular, lobe.grazing));
     else if (TABLE == TABLE_MATCHED_BY_VIEW)
-        sums = gather_by_view(v, record.table_begin, record.texel_factor);
+        sums = gather_by_view(v, record.table_begin);
     else if (TABLE == TABLE_CONSTANT)
         sums = gather_constant(v);
     else

@@ -20,7 +20,7 @@ struct LobeRecord {
     uint albedo_width_nodes; // 1 = isotropic
     float threshold_log;   // -ln xi0, for scaled tables of the regular pattern
     uint conserves_energy; // 1: divided by its albedo where that exceeds 1
-    float texel_factor;    // of matched lookups: face_texels / (4 SPHERICAL_VARIANCE)
+    float variance_share;  // of matched lookups: what a variance of 1 is of level 1's, face_texels / (16 SPHERICAL_VARIANCE)
     uint pad1;
     uint pad2;
 };

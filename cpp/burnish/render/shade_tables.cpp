@@ -7,11 +7,11 @@
 
 #include "burnish/error.h"
 #include "burnish/sampling/matched_table.h"
+#include "burnish/sampling/prefilter_table.h"
 #include "burnish/sampling/spherical_harmonics.h"
 #include "burnish/vulkan/device.h"
 #include "burnish/vulkan/transfer.h"
 #include "shared/constants.h"
-#include "shared/prefilter.h"
 
 namespace burnish::render {
 namespace {
@@ -67,8 +67,8 @@ public:
     }
 
     /// First entry of the lookups of one isotropic lobe, by view.
-    uint32_t view_table(uint32_t count, const KurtLobe& lobe, bool has_schlick) {
-        MatchedLobe key{count, lobe.roughness.x, lobe.alpha, 1.0f, 0.0f, has_schlick};
+    uint32_t view_table(uint32_t count, const KurtLobe& lobe, bool has_schlick, uint32_t face_size) {
+        MatchedLobe key{count, lobe.roughness.x, lobe.alpha, 1.0f, 0.0f, has_schlick, face_size};
         const float specular = mean(lobe.weight * lobe.r0), total = mean(lobe.weight);
         if (lobe.has_fresnel() && total > 0.0f) {
             // Where nothing is reflected, some direction must still come out.
@@ -223,12 +223,12 @@ ShadeTables make_shade_tables(const vulkan::DevicePointer& device, const Scene& 
             const KurtLobe lobe = lobe_of(material, which, traits);
             shared::LobeRecord record = lobe_record(lobe);
             if (const auto* matched = std::get_if<Matched>(&plan.settings.sampler)) {
-                record.table_begin = traits.table == TableForm::matched_by_view
-                                         ? writer.view_table(matched->samples, lobe, traits.has_fresnel)
-                                         : writer.mixtures(matched->samples);
+                record.table_begin =
+                    traits.table == TableForm::matched_by_view
+                        ? writer.view_table(matched->samples, lobe, traits.has_fresnel, face_size)
+                        : writer.mixtures(matched->samples);
                 record.table_count = matched->samples;
-                record.texel_factor =
-                    float(face_size) * float(face_size) / (4.0f * shared::SPHERICAL_VARIANCE);
+                record.variance_share = spherical_share(1.0, face_size);
                 counts[instance.shade_class].insert(matched->samples);
             } else if (traits.table == TableForm::prefiltered) {
                 counts[instance.shade_class].insert(1);

@@ -49,4 +49,13 @@ SampleTable build_spherical_table(uint32_t size, uint32_t face_size, PyramidFilt
     return table;
 }
 
+float spherical_share(double variance, uint32_t face_size) {
+    return float(variance * face_size * face_size / (16.0 * shared::SPHERICAL_VARIANCE));
+}
+
+float spherical_level(double variance, uint32_t face_size) {
+    const float share = spherical_share(variance, face_size);
+    return share > 1.0f ? 1.0f + 0.5f * std::log2(share) : share;
+}
+
 } // namespace burnish

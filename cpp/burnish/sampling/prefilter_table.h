@@ -26,4 +26,10 @@ SampleTable build_prefilter_table(uint32_t level, uint32_t face_size);
 /// lookup goes to where the slope as a half-vector's mirrors the normal; v is the variance of its directions.
 SampleTable build_spherical_table(uint32_t size, uint32_t face_size, PyramidFilter filter);
 
+/// A variance of directions per axis as a share of what a lookup at level 1 of such a map has.
+float spherical_share(double variance, uint32_t face_size);
+/// Level at which a lookup has that variance: 1 + log2(share)/2, and below level 1 the share itself, as level
+/// 0 is not filtered.
+float spherical_level(double variance, uint32_t face_size);
+
 } // namespace burnish
