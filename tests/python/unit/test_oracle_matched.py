@@ -11,7 +11,7 @@ from burnish.oracle.cube_map import texel_directions
 from burnish.oracle.estimator import local_frame
 from burnish.oracle.frame import frame_from_tangent
 from burnish.oracle.kurt_lobe import KurtLobe, kurt_sample
-from burnish.oracle.lobe_map import cube_metric, lobe_map, principal_axes
+from burnish.oracle.lobe_map import lobe_map, principal_axes
 from burnish.oracle.matched import Matched, matched_lookups, read_matched, shade_matched
 from burnish.oracle.matched_table import (
     ASPECT_COUNT,
@@ -156,21 +156,6 @@ def test_principal_axes_are_those_of_the_singular_value_decomposition(rng):
     np.testing.assert_allclose(np.linalg.norm(long, axis=-1), a, rtol=1e-9)
 
 
-def test_the_cube_metric_keeps_areas_and_is_the_same_from_both_sides_of_an_edge(rng):
-    d = normalize(rng.normal(size=(300, 3)))
-    t, b = frame_from_tangent(d, rng.normal(size=(300, 3)))
-    metric = cube_metric(d, t, b, 1.0)
-    np.testing.assert_allclose(np.linalg.det(metric), 1, rtol=1e-9)
-    np.testing.assert_allclose(metric, np.swapaxes(metric, -1, -2))
-    v = rng.uniform(-0.9, 0.9, 20)
-    sides = [np.stack([np.full(20, 1 + e), v, np.full(20, 1 - e)], axis=-1) for e in (1e-7, -1e-7)]
-    axis = np.array([0.0, 1.0, 0.0])
-    frames = [frame_from_tangent(normalize(s), axis) for s in sides]
-    one, other = (cube_metric(normalize(s), *f, 1.0) for s, f in zip(sides, frames, strict=True))
-    np.testing.assert_allclose(one, other, atol=1e-5)
-
-
-@pytest.mark.parametrize("filter", ["sphere", "gauss6"])
 @pytest.mark.parametrize("name", LOBES)
 def test_constant_light_gives_the_albedo(name, filter, points):
     n, t, o = points
