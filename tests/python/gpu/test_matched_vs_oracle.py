@@ -19,8 +19,8 @@ from engine_support import random_points, smooth_environment_faces, unit
 
 # Relative to a point's radiance, or the mean over the points where that is more. The albedo's table is that
 # exact. Lookups at the edge of a disc a thousand times brighter than its surroundings turn the rounding of a
-# direction into radiance; and rounding decides which of two rows serves a view half-way between them, a step of
-# 1e-3 of the lobe. Those are few.
+# direction into radiance; and rounding decides which of two rows serves a view half-way between them, a step
+# of 1e-3 of the lobe. Those are few.
 LIMIT_SOFTWARE, LIMIT_GPU = 3e-4, 2e-2
 SHARE_BEYOND = 0.01
 FACTOR_BEYOND = 100
