@@ -18,7 +18,7 @@ LARGEST_ASPECT = 34.0
 #: Where `fit_matched` writes it.
 TABLE_PATH = Path(__file__).parent.parent / "tables" / "matched.txt"
 #: Of the committed file; the one place that knows it.
-TABLE_SHA256 = "160fb6bfdf209a97a4433e31fd66b3bcbbcd211721f372930232e30c49e314f2"
+TABLE_SHA256 = "8823304dcaef3bbe5bc459cb6a6c540b9f0f8370067cbce5bc5681847d7a95cf"
 
 
 @dataclass(frozen=True)
