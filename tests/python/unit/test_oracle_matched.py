@@ -157,16 +157,14 @@ def test_principal_axes_are_those_of_the_singular_value_decomposition(rng):
 
 
 @pytest.mark.parametrize("name", LOBES)
-def test_constant_light_gives_the_albedo(name, filter, points):
+def test_constant_light_gives_the_albedo(name, points):
     n, t, o = points
     lobe = LOBES[name]
     albedo = blend_albedo(
         directional_albedo(local_frame(n, t, o, lobe.rotation).omega_o, lobe.roughness, lobe.alpha), lobe.r0
     )
     for samples in (2, 5, 14):
-        shaded = shade_matched(
-            read_matched(constant((1, 2, 3)), Matched(filter=filter)), n, t, o, lobe, samples
-        )
+        shaded = shade_matched(read_matched(constant((1, 2, 3)), Matched()), n, t, o, lobe, samples)
         np.testing.assert_allclose(shaded, np.array([1, 2, 3]) * albedo * np.asarray(lobe.weight), rtol=1e-9)
 
 
@@ -217,12 +215,11 @@ def test_swapped_roughness_in_a_frame_turned_by_90_degrees_changes_nothing(point
     np.testing.assert_allclose(other, one, rtol=1e-9)
 
 
-@pytest.mark.parametrize("filter", ["sphere", "gauss6"])
 @pytest.mark.parametrize("alpha", [0.0, 0.5, 1.0])
 @pytest.mark.parametrize("roughness", [1e-4, 1e-2, 1.0, (1.0, 1e-2), (1e-3, 0.1)])
-def test_finite_at_the_hard_views(roughness, alpha, filter, smooth):
+def test_finite_at_the_hard_views(roughness, alpha, smooth):
     views = [view(0), view(1e-7), view(89.99, 1.0), view(90), view(120, 0.3), [0, 0, -1.0], [0, 1, 1e-9]]
-    light_map = read_matched(smooth, Matched(filter=filter))
+    light_map = read_matched(smooth, Matched())
     for samples in (2, 5, 14):
         lobe = KurtLobe(roughness, (1, 0.5, 0.04), alpha)
         shaded = shade_matched(light_map, [0, 0, 1.0], [0, 0, 0.0], views, lobe, samples)
