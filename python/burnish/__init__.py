@@ -44,6 +44,7 @@ __all__ = [
     "render",
     "sample_pattern",
     "shade",
+    "study",
 ]
 
 if _load_failure() is None:
@@ -71,6 +72,7 @@ if _load_failure() is None:
     from burnish.rendering import render, shade
 
     _attach()
+    from burnish import study  # measures the names above, so it comes after them
 
 
 def __getattr__(name: str) -> object:

@@ -4,6 +4,7 @@ import argparse
 from typing import TYPE_CHECKING, NoReturn
 
 from burnish import __version__
+from burnish._cli_study import STUDY_EXAMPLES, STUDY_HELP, add_study_arguments
 
 if TYPE_CHECKING:
     from burnish.rendering import Sampler
@@ -128,6 +129,8 @@ def make_parser() -> argparse.ArgumentParser:
 
     explain = command("explain", "print what rendering would do and why, without rendering", EXPLAIN_EXAMPLES)
     _add_scene_arguments(explain)
+
+    add_study_arguments(command("study", STUDY_HELP, STUDY_EXAMPLES))
 
     doctor = command("doctor", "say what is missing here and how to install it", DOCTOR_EXAMPLES)
     doctor.add_argument("--device", metavar="NAME", help="part of a Vulkan device's name (default: the best)")

@@ -1,13 +1,15 @@
-"""The command line: ``burnish render``, ``burnish explain``, ``burnish doctor``."""
+"""The command line: ``burnish render``, ``burnish explain``, ``burnish study``, ``burnish doctor``."""
 
 import argparse
 import os
+import shlex
 import sys
 from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from burnish._cli_arguments import make_parser, parse_sampler
+from burnish._cli_study import run_study
 from burnish._extension import load_failure
 from burnish._progress import progress_bar
 
@@ -160,7 +162,7 @@ def run_doctor(options: argparse.Namespace) -> int:
     return 0 if report.can_render else 1
 
 
-COMMANDS = {"render": run_render, "explain": run_explain, "doctor": run_doctor}
+COMMANDS = {"render": run_render, "explain": run_explain, "study": run_study, "doctor": run_doctor}
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -176,7 +178,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
     code : int
         0 done; 1 this machine cannot render (doctor); 2 an error, in one line on stderr; 130 interrupted.
     """
-    options = make_parser().parse_args(arguments)
+    given = sys.argv[1:] if arguments is None else list(arguments)
+    options = make_parser().parse_args(given)
+    options.command_line = shlex.join(["burnish", *given])  # what is written says how it was made
     try:
         reason = load_failure()
         if reason is not None and options.command != "doctor":

@@ -12,6 +12,28 @@ from burnish.report import Report
 FloatArray = NDArray[np.float32]
 
 
+def relative_rmse(color: FloatArray, reference: FloatArray) -> float:
+    """Relative root mean square error of linear radiance.
+
+    ``sqrt(mean((color - reference)**2) / mean(reference**2))``, over all values, in double precision.
+
+    Parameters
+    ----------
+    color, reference : (..., 3) float32
+        Equal shapes.
+
+    Returns
+    -------
+    error : float
+        0 when equal; NaN when the reference is empty or black.
+    """
+    truth = np.asarray(reference, np.float64)
+    energy = float(np.sum(truth**2))
+    if energy == 0.0:
+        return float("nan")
+    return float(np.sqrt(np.sum((np.asarray(color, np.float64) - truth) ** 2) / energy))
+
+
 @dataclass(eq=False, repr=False)
 class Frame:
     """Pixels of one picture, row 0 at the top, and what they cost.
@@ -74,9 +96,8 @@ class Frame:
     def error(self, reference: "Frame") -> float:
         """Measure how far this picture is from another one of the same view.
 
-        The relative root mean square error of linear radiance, where the reference shows objects (alpha > 0):
-        ``sqrt(mean((color - reference.color)**2) / mean(reference.color**2))``. The background is left out:
-        no sampler touches it.
+        The `relative_rmse` of linear radiance where the reference shows objects (alpha > 0). The background
+        is left out: no sampler touches it.
 
         Parameters
         ----------
@@ -92,9 +113,4 @@ class Frame:
             expected, got = self.color.shape[:2], reference.color.shape[:2]
             raise ValueError(f"reference: expected a frame of shape {expected}, got {got}")
         covered = reference.alpha > 0
-        truth = reference.color[covered].astype(np.float64)
-        energy = float(np.sum(truth**2))
-        if energy == 0.0:
-            return float("nan")
-        difference = self.color[covered].astype(np.float64) - truth
-        return float(np.sqrt(np.sum(difference**2) / energy))
+        return relative_rmse(self.color[covered], reference.color[covered])

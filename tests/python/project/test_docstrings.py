@@ -1,6 +1,7 @@
 """Every public name says what it is, and every parameter is mentioned."""
 
 import inspect
+import operator
 import re
 
 import pytest
@@ -18,10 +19,9 @@ def members(owner):
 
 def public_things():
     """(dotted name, object, docstring that must cover its parameters)."""
-    for name in burnish.__all__:
-        if name in DATA:
-            continue
-        thing = getattr(burnish, name)
+    names = [name for name in burnish.__all__ if name not in DATA]
+    for name in [*names, *(f"study.{name}" for name in burnish.study.__all__)]:
+        thing = operator.attrgetter(name)(burnish)
         yield name, thing
         if inspect.isclass(thing):
             for member, value in members(thing).items():
@@ -39,7 +39,7 @@ def parameters_of(thing):
     """Names of parameters: by the signature, or by the first line that pybind11 writes into docstrings."""
     thing = unwrapped(thing)
     if inspect.isfunction(thing):
-        return [name for name in inspect.signature(thing).parameters if name != "self"]
+        return [name for name in inspect.signature(thing).parameters if name not in ("self", "cls")]
     first_line = (inspect.getdoc(thing) or "").splitlines()[:1]
     match = re.match(r"\w+\((.*)\) -> ", first_line[0]) if first_line else None
     if match is None:

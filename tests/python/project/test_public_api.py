@@ -66,6 +66,17 @@ def test_samplers_have_the_documented_defaults():
     burnish.Importance(samples=30, points="fibonacci", mip_bias=-0.5)
 
 
+def test_studies_take_the_documented_arguments():
+    assert names(burnish.study.accuracy)[:3] == ["scene_or_points", "samplers", "reference"]
+    assert defaults(burnish.study.accuracy)["reference"] is None
+    for name in ("pareto", "plot", "save_html", "save_json", "save_csv", "load_json"):
+        assert callable(getattr(burnish.study.Study, name))
+    assert [names(getattr(burnish.study.Study, name))[0] for name in ("plot", "save_html", "save_json")] == [
+        "path"
+    ] * 3
+    assert burnish.study.Study([]).rows == []
+
+
 def test_lobes_and_materials_are_made_as_documented():
     lobe = burnish.KurtLobe(roughness=(0.2, 0.075), r0=1.0, alpha=0.0, weight=(1, 1, 1), rotation=0.0)
     assert lobe.roughness == pytest.approx((0.2, 0.075))

@@ -85,7 +85,7 @@ def test_errors_are_one_line_and_exit_code_2(capfd, tmp_path, monkeypatch, argum
     assert out == ""
 
 
-@pytest.mark.parametrize("command", ["render", "explain", "doctor"])
+@pytest.mark.parametrize("command", ["render", "explain", "study", "doctor"])
 def test_help_has_examples_that_parse(capsys, command):
     with pytest.raises(SystemExit, match="0"):
         make_parser().parse_args([command, "--help"])

@@ -1,0 +1,50 @@
+"""A study in words: what was best, and what a reader must not overlook."""
+
+from typing import TYPE_CHECKING
+
+from burnish.study.rows import Row, cell_title, format_value
+
+if TYPE_CHECKING:
+    from burnish.study.study import Study
+
+COARSE_REFERENCE = 1 / 3
+"""Share of the least error from which the reference's own standard error spoils the ranking."""
+
+
+def _of_cell(rows: list[Row]) -> list[str]:
+    measured = [row for row in rows if row["relative_rmse"] is not None]
+    if not measured:
+        return [f"{cell_title(rows[0])}: the reference is black, so there are no relative errors."]
+    best = min(measured, key=lambda row: row["relative_rmse"])
+    least, time = format_value(best["relative_rmse"]), format_value(best["frame_ms"])
+    lines = [
+        f"{cell_title(rows[0])}: {best['sampler']} has the least error, {least} relative RMSE in {time} ms."
+    ]
+    noise = max(row["reference_standard_error"] for row in rows)
+    if noise > COARSE_REFERENCE * best["relative_rmse"]:
+        lines.append(
+            f"Careful: the reference's own standard error there, {format_value(noise)}, is more than a third "
+            "of the least error; a finer reference is needed to rank what is near it."
+        )
+    return lines
+
+
+def list_findings(study: "Study") -> list[str]:
+    """Say what each cell's least error is, and what the reader must know.
+
+    Parameters
+    ----------
+    study : Study
+        Any.
+
+    Returns
+    -------
+    lines : list of str
+        One sentence or two each.
+    """
+    lines = [line for cell in study.cells() for line in _of_cell(cell)]
+    if any(row["flip"] is None and row["height"] > 1 for row in study.rows):
+        lines.append("FLIP is missing: the package flip-evaluator was not installed.")
+    lines += study.notes
+    warnings = dict.fromkeys(warning for row in study.rows for warning in row["warnings"])
+    return lines + [f"The renderer warned: {warning}" for warning in warnings]
