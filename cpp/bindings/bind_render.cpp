@@ -7,6 +7,7 @@
 
 #include "burnish/render/capture.h"
 #include "burnish/render/renderer.h"
+#include "burnish/sampling/prefilter_table.h"
 #include "numpy.h"
 #include "scene_values.h"
 
@@ -74,7 +75,8 @@ py::dict report_dict(const render::Report& report) {
 }
 
 py::dict plan_dict(const Scene& scene, const Sampler& sampler, int64_t spp, const std::string& filter, bool) {
-    const Plan plan = make_plan(scene, plan_settings(sampler, spp, filter));
+    SunCache suns;
+    const Plan plan = make_plan(scene, plan_settings(sampler, spp, filter), suns);
     py::list passes, classes;
     for (const PassLine& line : plan.passes)
         passes.append(py::dict(py::arg("name") = line.name, py::arg("reason") = line.reason));
@@ -188,14 +190,44 @@ py::list pyramid_levels(render::Renderer& renderer, const std::shared_ptr<Enviro
     return result;
 }
 
-py::list pyramid_times(render::Renderer& renderer, const std::shared_ptr<Environment>& environment,
-                       const std::string& filter) {
-    std::vector<vulkan::PassTime> times;
-    renderer.pyramid(environment, pyramid_filter(filter), &times);
+py::list prefiltered_levels(render::Renderer& renderer, const std::shared_ptr<Environment>& environment,
+                            const std::string& filter) {
+    std::vector<std::vector<float>> levels;
+    {
+        const PyramidFilter chosen = pyramid_filter(filter);
+        const py::gil_scoped_release release;
+        levels = renderer.prefiltered(environment, chosen);
+    }
+    py::list result;
+    uint32_t size = environment->face_size();
+    for (std::vector<float>& level : levels) {
+        const float roughness = result.empty() ? 0.0f : prefiltered_roughness(size);
+        const auto edge = py::ssize_t(size);
+        result.append(py::make_tuple(roughness, make_array(std::move(level), {6, edge, edge, 3})));
+        size /= 2;
+    }
+    return result;
+}
+
+py::list times_list(const std::vector<vulkan::PassTime>& times) {
     py::list result;
     for (const vulkan::PassTime& time : times)
         result.append(py::make_tuple(time.name, time.milliseconds));
     return result;
+}
+
+py::list pyramid_times(render::Renderer& renderer, const std::shared_ptr<Environment>& environment,
+                       const std::string& filter) {
+    std::vector<vulkan::PassTime> times;
+    renderer.pyramid(environment, pyramid_filter(filter), &times);
+    return times_list(times);
+}
+
+py::list prefilter_times(render::Renderer& renderer, const std::shared_ptr<Environment>& environment,
+                         const std::string& filter) {
+    std::vector<vulkan::PassTime> times;
+    renderer.prefiltered(environment, pyramid_filter(filter), &times);
+    return times_list(times);
 }
 
 } // namespace
@@ -223,6 +255,12 @@ void bind_render(py::module_& m) {
     m.def("environment_pyramid", &pyramid_levels, py::arg("device"), py::arg("environment"),
           py::arg("filter"),
           "List of (6, n, n, 3) float32, finest first, as lookups see them: rounded to half.");
+    m.def(
+        "environment_prefiltered", &prefiltered_levels, py::arg("device"), py::arg("environment"),
+        py::arg("filter"),
+        "List of (roughness, (6, n, n, 3) float32), finest first, as the sampler Prefiltered looks them up.");
+    m.def("prefilter_times", &prefilter_times, py::arg("device"), py::arg("environment"), py::arg("filter"),
+          "List of (pass, milliseconds) of making one prefiltered map, for benchmarks.");
     m.def("pyramid_times", &pyramid_times, py::arg("device"), py::arg("environment"), py::arg("filter"),
           "List of (pass, milliseconds) of making one map's pyramid, for benchmarks.");
     m.def(

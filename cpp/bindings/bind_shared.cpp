@@ -6,6 +6,7 @@
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
+#include "shared/prefilter.h"
 #include "shared/pyramid.h"
 #include "shared/records.h"
 
@@ -27,7 +28,7 @@ std::map<std::string, Layout> shared_layout() {
           FIELD(LobeRecord, rotation_cos), FIELD(LobeRecord, rotation_sin), FIELD(LobeRecord, table_begin),
           FIELD(LobeRecord, table_count), FIELD(LobeRecord, albedo_begin),
           FIELD(LobeRecord, albedo_width_nodes), FIELD(LobeRecord, threshold_log),
-          FIELD(LobeRecord, conserves_energy), FIELD(LobeRecord, texel_factor), FIELD(LobeRecord, pad1),
+          FIELD(LobeRecord, conserves_energy), FIELD(LobeRecord, variance_share), FIELD(LobeRecord, pad1),
           FIELD(LobeRecord, pad2)}},
         {"MaterialRecord",
          {FIELD(MaterialRecord, diffuse), FIELD(MaterialRecord, emissive), FIELD(MaterialRecord, lobe_begin),
@@ -35,7 +36,8 @@ std::map<std::string, Layout> shared_layout() {
         {"MapRecord",
          {FIELD(MapRecord, env_from_world_x), FIELD(MapRecord, env_from_world_y),
           FIELD(MapRecord, env_from_world_z), FIELD(MapRecord, irradiance), FIELD(MapRecord, radiance_scale),
-          FIELD(MapRecord, layer), FIELD(MapRecord, face_size), FIELD(MapRecord, alias_begin)}},
+          FIELD(MapRecord, layer), FIELD(MapRecord, face_size), FIELD(MapRecord, alias_begin),
+          FIELD(MapRecord, suns)}},
         {"ViewRecord",
          {FIELD(ViewRecord, clip_from_world), FIELD(ViewRecord, ray_corner), FIELD(ViewRecord, ray_dx),
           FIELD(ViewRecord, ray_dy), FIELD(ViewRecord, width_px), FIELD(ViewRecord, height_px),
@@ -67,6 +69,10 @@ std::map<std::string, Layout> shared_layout() {
           FIELD(PyramidRecord, source_size), FIELD(PyramidRecord, target_begin),
           FIELD(PyramidRecord, target_pitch), FIELD(PyramidRecord, pad0), FIELD(PyramidRecord, pad1),
           FIELD(PyramidRecord, pad2)}},
+        {"PrefilterRecord",
+         {FIELD(PrefilterRecord, cube), FIELD(PrefilterRecord, size), FIELD(PrefilterRecord, texel_begin),
+          FIELD(PrefilterRecord, sample_begin), FIELD(PrefilterRecord, sample_count),
+          FIELD(PrefilterRecord, pad0), FIELD(PrefilterRecord, pad1), FIELD(PrefilterRecord, pad2)}},
         {"TexelAlias",
          {FIELD(TexelAlias, threshold), FIELD(TexelAlias, alias), FIELD(TexelAlias, probability),
           FIELD(TexelAlias, pad0)}},

@@ -1,5 +1,6 @@
 // Radiance of one lobe by the variance-matched sampler (maths: section 6): the lobe as a mixture of Gaussians whose widths are
-// those of the lookups, so that centres and lookups together have the lobe's covariance.
+// those of the lookups, so that centres and lookups together have the lobe's covariance. The map's levels are round on the sphere
+// (shared/prefilter.h): where lookups go and how wide they are depends on the lobe and the view in its frame alone.
 #ifndef BURNISH_SHADE_MATCHED
 #define BURNISH_SHADE_MATCHED
 
@@ -16,7 +17,7 @@ struct MixtureView {
     vec3 h, p;
     float oh, h2, p2;    // o.h, |h|^2, |p|^2
     float linear;        // b^2/c: a component's variance over s^2 (o.h) cos_h^3
-    float texels;        // 2 face_texels / (4 c_f) 2^(2 S)
+    float share;         // 4^S of level 1's for a variance of 1: see spherical_level
     int row;             // its first entry in the table
     vec2 fresnel;        // F = x + y (1 - o.h)^5 over all channels: weighs directions within a component
 };
@@ -29,24 +30,22 @@ struct LobeAxes {
     float rho, minor, foreshortening;
 };
 
-// Widths of the mirrored lobe on the map: L maps slopes in units of roughness to offsets from the mirror direction, along T1 in
-// the plane of view and T2 across it; `radial`, a unit vector in that basis, and `stretch` = q^2 say how a lookup, round on the
-// cube's face, lies on the sphere. A = q r r^T + t t^T / q has determinant 1, so that the singular values of A L multiply to
-// 4 mx my c, and V diagonalises L^T A^2 L.
-LobeAxes lobe_axes(vec3 local_o, vec2 roughness, vec2 radial, float stretch) {
+// Widths of the mirrored lobe on the sphere: L maps slopes in units of roughness to offsets from the mirror direction, along T1 in
+// the plane of view and T2 across it,
+//   L = 2 [ex mx, ey my; -ey mx c, ex my c],  e = o_xy/|o_xy|,  c^2 = max(o_z, .03)^2 + (ox mx)^2 + (oy my)^2.
+// V diagonalises L^T L; the singular values multiply to 4 mx my c.
+LobeAxes lobe_axes(vec3 local_o, vec2 roughness) {
     float sine = length(local_o.xy);
     vec2 e = sine > 1e-6 ? local_o.xy / sine : vec2(1.0, 0.0);
-    vec2 across = local_o.xy * roughness;
+    vec2 along = local_o.xy * roughness;
     float floored = max(local_o.z, 0.03);
+    float c2 = floored * floored + dot(along, along);
     LobeAxes axes;
-    axes.foreshortening = sqrt(floored * floored + dot(across, across));
-    vec2 l1 = 2.0 * roughness.x * vec2(e.x, -e.y * axes.foreshortening);
-    vec2 l2 = 2.0 * roughness.y * vec2(e.y, e.x * axes.foreshortening);
-    float more = stretch - 1.0 / stretch;
-    float r1 = dot(radial, l1), r2 = dot(radial, l2);
-    float p = dot(l1, l1) / stretch + more * r1 * r1;
-    float s = dot(l2, l2) / stretch + more * r2 * r2;
-    float off = dot(l1, l2) / stretch + more * r1 * r2;
+    axes.foreshortening = sqrt(c2);
+    vec2 e2 = e * e;
+    float p = 4.0 * roughness.x * roughness.x * (e2.x + e2.y * c2);
+    float s = 4.0 * roughness.y * roughness.y * (e2.y + e2.x * c2);
+    float off = 4.0 * roughness.x * roughness.y * e.x * e.y * (1.0 - c2);
     float half_difference = 0.5 * (p - s);
     float radius = sqrt(half_difference * half_difference + off * off);
     float major2 = 0.5 * (p + s) + radius;
@@ -54,31 +53,13 @@ LobeAxes lobe_axes(vec3 local_o, vec2 roughness, vec2 radial, float stretch) {
     axes.rho = max(major2 / product, 1.0);
     axes.minor = product * inversesqrt(major2);
     // Half the angle whose cosine is half_difference/radius, from its larger part: no cancellation.
-    float cosine = radius > 1e-7 * major2 ? half_difference / radius : 1.0;
+    bool is_round = radius <= 1e-7 * major2;
+    float cosine = is_round ? 1.0 : half_difference / radius;
     float larger = sqrt(0.5 + 0.5 * abs(cosine));
-    float smaller = radius > 1e-7 * major2 ? 0.5 * off / (radius * larger) : 0.0;
+    float smaller = is_round ? 0.0 : 0.5 * off / (radius * larger);
     axes.v1 = cosine >= 0.0 ? vec2(larger, smaller) : vec2(abs(smaller), off < 0.0 ? -larger : larger);
     axes.v2 = vec2(-axes.v1.y, axes.v1.x);
     return axes;
-}
-
-// How a lookup at `mirror` lies on the sphere: it is round in the face's (u, v). `radial` points away from the face's centre, in
-// the basis (t1, t2); returns q^2, the ratio of its widths. (u, v) are bent so that no seam shows; wide lobes see several faces,
-// and the stretch fades.
-float lookup_stretch(vec3 mirror, vec3 t1, vec3 t2, float widest, out vec2 radial) {
-    vec3 a = abs(mirror);
-    float largest = max(max(a.x, a.y), a.z);
-    vec3 p = mirror / largest;
-    bool is_z = a.z == largest, is_y = !is_z && a.y == largest;
-    vec2 uv = is_z ? p.xy : (is_y ? p.xz : p.yz);
-    vec2 uv4 = uv * uv * uv * uv;
-    uv *= 1.0 - uv4.yx;
-    vec3 tau = is_z ? vec3(-uv.y, uv.x, 0.0) : (is_y ? vec3(-uv.y, 0.0, uv.x) : vec3(0.0, -uv.y, uv.x));
-    vec2 tangential = vec2(dot(tau, t1), dot(tau, t2));
-    tangential *= inversesqrt(max(dot(tangential, tangential), 1e-20));
-    radial = vec2(-tangential.y, tangential.x);
-    float w = widest * (1.0 / 0.25);
-    return exp2(0.5 * log2(1.0 + dot(uv, uv)) / (1.0 + w * w * w));
 }
 
 // (T1, T2, I): the mirror direction I, T1 across it in the plane of view, T2 across both. Environment space.
@@ -89,12 +70,9 @@ mat3 mirror_frame(LobeView v) {
     return mat3(v.local_o.z * plane + sine * v.frame[2], e.x * v.frame[1] - e.y * v.frame[0], 2.0 * v.local_o.z * v.frame[2] - v.omega_o);
 }
 
-MixtureView view_mixture(LobeView v, uint table_begin, float texel_factor, vec3 specular, vec3 grazing) {
-    mat3 around = mirror_frame(v);
-    vec2 radial;
+MixtureView view_mixture(LobeView v, uint table_begin, float variance_share, vec3 specular, vec3 grazing) {
     float widest = max(v.roughness.x, v.roughness.y);
-    float stretch = lookup_stretch(around[2], around[0], around[1], widest, radial);
-    LobeAxes axes = lobe_axes(v.local_o, v.roughness, radial, stretch);
+    LobeAxes axes = lobe_axes(v.local_o, v.roughness);
 
     MixtureView view;
     vec2 slope1 = v.roughness * axes.v1, slope2 = v.roughness * axes.v2;
@@ -110,11 +88,11 @@ MixtureView view_mixture(LobeView v, uint table_begin, float texel_factor, vec3 
     view.p = (-u.y * inverse_rho) * view.g1 + u.x * view.g2;
     view.oh = dot(u, slope);
     view.p2 = dot(view.p, view.p);
-    view.linear = NARROW_VARIANCE * axes.minor * axes.minor / axes.foreshortening;
+    view.linear = axes.minor * axes.minor / axes.foreshortening;
     view.h2 = dot(view.h, view.h);
     float t = min(axes.rho / float(SAMPLE_COUNT), 3.0);
-    float shift = -0.05 + 0.16 * t + 0.15 * max(t - 1.0, 0.0) + 0.04 * clamp((widest - 0.15) / 0.15, 0.0, 1.0);
-    view.texels = texel_factor * exp2(2.0 * shift);
+    float shift = -0.08 + 0.22 * t + 0.3 * max(t - 1.0, 0.0) + 0.36 * clamp(widest - 0.15, 0.0, 0.45);
+    view.share = variance_share * exp2(2.0 * shift);
     float node = log2(axes.rho) * (float(MATCHED_ROWS - 1u) / MATCHED_LOG2_LARGEST_RHO) + 0.5;
     view.row = int(table_begin) + int((SAMPLE_COUNT + 1u) / 2u) * int(node < float(MATCHED_ROWS - 1u) ? node : float(MATCHED_ROWS - 1u));
     // Where nothing is reflected, some direction must still come out.
@@ -140,19 +118,18 @@ struct Component {
     vec3 direction; // sum of F w omega_i, environment space
 };
 
-// `variance` is that of directions about their mean, per axis, times the level-0 texels that a variance of one covers.
-Lookup finish_component(Component component, float weight, float variance) {
+// Level at which a lookup has a variance, given as a share of level 1's: 4^l grows with the level, but level 0 is not filtered, and
+// below level 1 the mix of both has that share of level 1.
+float spherical_level(float share) { return share > 1.0 ? 1.0 + 0.5 * log2(share) : share; }
+
+// `share`: see spherical_level.
+Lookup finish_component(Component component, float weight, float share) {
     Lookup lookup;
     lookup.direction = component.direction;
     lookup.weight = weight * component.base;
     lookup.schlick = HAS_FRESNEL ? component.schlick / component.base : 0.0;
     lookup.density = 0.0;
-    vec3 a = abs(component.direction);
-    float largest = a.x > a.y ? a.x : a.y;
-    largest = largest > a.z ? largest : a.z;
-    // A lookup of width sigma in (u, v) is r^-2 sigma by r^-1 sigma wide on the sphere: 2/(r^-4 + r^-2).
-    float x = largest * largest / dot(component.direction, component.direction); // r^-2
-    lookup.level = mip_level(variance / (x * (x + 1.0)));
+    lookup.level = spherical_level(share);
     return lookup;
 }
 
@@ -207,23 +184,21 @@ void add_point(LobeView v, MixtureView view, vec3 offset, float share, inout Com
     component.direction += weight * (q * g - v.omega_o);
 }
 
-// A wide component by 3x3 Gauss-Hermite points; its variance is -ln(|M|/G).
+// A wide component by its centre and four corners at sqrt(1.2) deviations: exact to the third degree, and of the rules of up to nine
+// points the one that errs least on wide lobes. Its variance is -ln(|M|/G).
 Lookup place_wide(LobeView v, MixtureView view, Pair pair, vec3 d, float og) {
-    vec3 across = (1.7320508 * pair.s) * view.p, along = (1.7320508 * pair.s) * view.h;
+    vec3 across = (1.0954451 * pair.s) * view.p, along = (1.0954451 * pair.s) * view.h;
     Component component = Component(0.0, 0.0, 0.0, vec3(0.0));
-    add_point(v, view, d, 4.0 / 9.0, component);
-    add_point(v, view, d - across, 1.0 / 9.0, component);
-    add_point(v, view, d + across, 1.0 / 9.0, component);
-    add_point(v, view, d - along, 1.0 / 9.0, component);
-    add_point(v, view, d + along, 1.0 / 9.0, component);
-    add_point(v, view, d - across - along, 1.0 / 36.0, component);
-    add_point(v, view, d + across - along, 1.0 / 36.0, component);
-    add_point(v, view, d - across + along, 1.0 / 36.0, component);
-    add_point(v, view, d + across + along, 1.0 / 36.0, component);
+    add_point(v, view, d, 4.0 / 24.0, component);
+    add_point(v, view, d - across - along, 5.0 / 24.0, component);
+    add_point(v, view, d + across - along, 5.0 / 24.0, component);
+    add_point(v, view, d - across + along, 5.0 / 24.0, component);
+    add_point(v, view, d + across + along, 5.0 / 24.0, component);
     float variance = -0.34657359 * log2(dot(component.direction, component.direction) / (component.gain * component.gain));
-    float least = 0.5 * pair.s * pair.s * view.linear * og * pair.inverse.x * pair.inverse.y;
+    float center2 = 1.0 + dot(d, d);
+    float least = 0.5 * pair.s * pair.s * view.linear * og / (center2 * center2);
     variance = clamp(variance, max(least, 1e-7), 1.0);
-    return finish_component(component, pair.weight, view.texels * variance);
+    return finish_component(component, pair.weight, view.share * variance);
 }
 
 void place_pair(LobeView v, MixtureView view, vec4 entry, out Lookup one, out Lookup other) {
@@ -246,7 +221,7 @@ void place_pair(LobeView v, MixtureView view, vec4 entry, out Lookup one, out Lo
         return;
     }
     // (s b)^2 (o.h) cos_h^3/c, the variance of the linear map at the centre; og is left to each.
-    pair.variance = s2 * view.texels * view.linear * (pair.inverse.x * pair.inverse.y);
+    pair.variance = NARROW_VARIANCE * s2 * view.share * view.linear * (pair.inverse.x * pair.inverse.y);
     pair.bend = 1.0 - s2 * view.p2;
     one = place_narrow(v, view, pair, pair.d, v.local_o.z + od, pair.lengths, pair.inverse);
     other = place_narrow(v, view, pair, -pair.d, v.local_o.z - od, pair.lengths.yx, pair.inverse.yx);
@@ -255,23 +230,24 @@ void place_pair(LobeView v, MixtureView view, vec4 entry, out Lookup one, out Lo
 vec4 mixture_entry(MixtureView view, uint which) { return imageLoad(sample_table, view.row + int(which)); }
 
 // The entry's lookup at this view: see build_matched_view_table.
-Lookup place_by_view(mat3 mirror_frame, float texel_factor, vec4 entry, float schlick) {
-    Component component;
-    component.base = entry.z;
-    component.schlick = entry.z * schlick;
-    float p2 = dot(entry.xy, entry.xy);
-    component.direction = 2.0 * entry.x * mirror_frame[0] + 2.0 * entry.y * mirror_frame[1] + (1.0 - p2) * mirror_frame[2];
-    return finish_component(component, 1.0, texel_factor * entry.w);
+Lookup place_by_view(mat3 mirror_frame, vec4 entry, float schlick) {
+    Lookup lookup;
+    lookup.direction = entry.x * mirror_frame[0] + entry.y * mirror_frame[1] + (0.5 - 0.5 * dot(entry.xy, entry.xy)) * mirror_frame[2];
+    lookup.level = entry.w;
+    lookup.weight = entry.z;
+    lookup.schlick = schlick;
+    lookup.density = 0.0;
+    return lookup;
 }
 
 #define VIEW_ENTRY(k) imageLoad(sample_table, row + k)
-#define PLACE_BY_VIEW(k, c, lookup) if (SAMPLE_COUNT > uint(k)) lookup = place_by_view(mirror_frame, texel_factor, VIEW_ENTRY(k), schlick[c]);
+#define PLACE_BY_VIEW(k, c, lookup) if (SAMPLE_COUNT > uint(k)) lookup = place_by_view(mirror_frame, VIEW_ENTRY(k), schlick[c]);
 #define GATHER_BY_VIEW(a, b, c, d)                                                                                     \
     if (HAS_FRESNEL && SAMPLE_COUNT > uint(a)) schlick = VIEW_ENTRY(int(SAMPLE_COUNT) + a / 4);                        \
     PLACE_BY_VIEW(a, 0, l0) PLACE_BY_VIEW(b, 1, l1) PLACE_BY_VIEW(c, 2, l2) PLACE_BY_VIEW(d, 3, l3)                    \
     ADD(a, l0) ADD(b, l1) ADD(c, l2) ADD(d, l3)
 
-LobeSums gather_by_view(LobeView v, uint table_begin, float texel_factor) {
+LobeSums gather_by_view(LobeView v, uint table_begin) {
     LobeSums sums = LobeSums(vec3(0.0), vec3(0.0), 0.0, 0.0, 0.0);
     const uint entries = SAMPLE_COUNT + (HAS_FRESNEL ? (SAMPLE_COUNT + 3u) / 4u : 0u);
     float x = sqrt(clamp(v.local_o.z, 0.0, 1.0)) * float(MATCHED_ROWS - 1u) + 0.5;

@@ -1,4 +1,4 @@
-// Shades surface points by patterns of half-vectors: regular sampling and filtered importance sampling.
+// Shades surface points by patterns of half-vectors (regular sampling and filtered importance sampling) or by prefiltered maps.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
@@ -6,6 +6,8 @@
 #include "lib/spherical_harmonics.glsl"
 #include "shade/lobe.glsl"
 #include "shade/matched.glsl"
+#include "shade/prefiltered.glsl"
+#include "shade/suns.glsl"
 #include "shade/surface_point.glsl"
 
 vec3 shade_lobe(PointToShade point, MapRecord map, uint lobe_index, uint which) {
@@ -22,12 +24,13 @@ vec3 shade_lobe(PointToShade point, MapRecord map, uint lobe_index, uint which) 
     v.area_term = published_area_term(v.local_o);
     v.threshold_log = record.threshold_log;
     v.layer = float(map.layer);
+    if (TABLE == TABLE_PREFILTERED) return shade_prefiltered(v, lobe, record, float(map.face_size));
 
     LobeSums sums;
     if (TABLE == TABLE_MATCHED)
-        sums = gather_matched(v, view_mixture(v, record.table_begin, record.texel_factor, lobe.specular, lobe.grazing));
+        sums = gather_matched(v, view_mixture(v, record.table_begin, record.variance_share, lobe.specular, lobe.grazing));
     else if (TABLE == TABLE_MATCHED_BY_VIEW)
-        sums = gather_by_view(v, record.table_begin, record.texel_factor);
+        sums = gather_by_view(v, record.table_begin);
     else if (TABLE == TABLE_CONSTANT)
         sums = gather_constant(v);
     else
@@ -35,7 +38,9 @@ vec3 shade_lobe(PointToShade point, MapRecord map, uint lobe_index, uint which) 
 
     vec2 albedo = vec2(0.0);
     if (NORMALIZATION == NORMALIZATION_FURNACE || CONSERVES_ENERGY) albedo = lobe_albedo(record, v.roughness, v.local_o);
-    return finish_lobe(v, sums, lobe.specular, lobe.grazing, albedo) * conserving_scale(record, albedo, v.cos_o_power);
+    vec3 light = finish_lobe(v, sums, lobe.specular, lobe.grazing, albedo);
+    if (SUN_COUNT > 0u) light += shade_suns(v, map, lobe.specular, lobe.grazing);
+    return light * conserving_scale(record, albedo, v.cos_o_power);
 }
 
 void main() {

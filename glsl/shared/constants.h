@@ -26,6 +26,9 @@ SHARED_CONST uint MATCHED_NODES = 40u;
 SHARED_CONST uint MATCHED_ROWS = 1024u;
 SHARED_CONST float MATCHED_LOG2_LARGEST_RHO = 5.0874628f;
 
+// Suns that may be taken out of one map.
+SHARED_CONST uint MAX_SUNS = 4u;
+
 // Bindings of the shade kernels.
 SHARED_CONST uint BINDING_VIEW = 0u;
 SHARED_CONST uint BINDING_MATERIALS = 1u;
@@ -72,6 +75,7 @@ SHARED_CONST uint SPEC_IS_QUADRATURE = 17u;
 SHARED_CONST uint SPEC_WITHOUT_LOOKUPS = 18u; // for benchmarks: shading alone
 SHARED_CONST uint SPEC_CONSERVES_ENERGY = 19u;
 SHARED_CONST uint SPEC_WIDE_COMPONENTS = 20u;
+SHARED_CONST uint SPEC_SUN_COUNT = 21u;
 SHARED_CONST uint SPEC_SAMPLES = 100u; // four floats a sample follow
 
 SHARED_CONST uint SOURCE_PIXELS = 0u;

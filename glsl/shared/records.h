@@ -2,6 +2,7 @@
 #ifndef BURNISH_SHARED_RECORDS_H
 #define BURNISH_SHARED_RECORDS_H
 
+#include "shared/constants.h"
 #include "shared/types.h"
 
 SHARED_BEGIN
@@ -19,7 +20,7 @@ struct LobeRecord {
     uint albedo_width_nodes; // 1 = isotropic
     float threshold_log;   // -ln xi0, for scaled tables of the regular pattern
     uint conserves_energy; // 1: divided by its albedo where that exceeds 1
-    float texel_factor;    // of matched lookups: 2 face_texels / (4 c_f)
+    float variance_share;  // of matched lookups: what a variance of 1 is of level 1's, face_texels / (16 SPHERICAL_VARIANCE)
     uint pad1;
     uint pad2;
 };
@@ -46,8 +47,9 @@ struct MapRecord {
     uint layer;           // cube in its array
     uint face_size;       // texels
     uint alias_begin;     // first entry of its TexelAlias table
+    vec4 suns[2 * MAX_SUNS]; // each: direction, environment space, and its variance; rgb: flux
 };
-SHARED_SIZE(MapRecord, 208)
+SHARED_SIZE(MapRecord, 336)
 
 // The view a frame is drawn from. A pixel's ray is ray_corner + (x + .5) ray_dx + (y + .5) ray_dy, x right, y down.
 struct ViewRecord {

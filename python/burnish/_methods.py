@@ -34,6 +34,28 @@ def pyramid(
     return _core.environment_pyramid(device or default_device(), self, filter)
 
 
+def prefiltered(
+    self: _core.Environment, filter: Filter = "gauss6", device: _core.Device | None = None
+) -> list[tuple[float, FloatArray]]:
+    """Build the prefiltered map that the sampler `Prefiltered` looks up.
+
+    Parameters
+    ----------
+    filter : "box", "gauss4" or "gauss6"
+        Reduction filter of the pyramid it is made from.
+    device : Device or None
+        None: the best one, opened once.
+
+    Returns
+    -------
+    levels : list of (roughness, (6, n, n, 3) float32)
+        Level 0, the map itself, has roughness 0. Every other level holds the map as a round lobe of that
+        slope, 3/n, sees it along its normal: r0 = 1, alpha = 0, divided by the lobe's albedo.
+    """
+    require_filter(filter)
+    return _core.environment_prefiltered(device or default_device(), self, filter)
+
+
 def _object_index(scene: _core.Scene, key: str | int) -> int:
     names = [one.name for one in scene.objects]
     if isinstance(key, str):
@@ -104,6 +126,7 @@ def attach() -> None:
     for owner, name, function in (
         (_core.Environment, "from_file", staticmethod(environment_from_file)),
         (_core.Environment, "pyramid", pyramid),
+        (_core.Environment, "prefiltered", prefiltered),
         (_core.Scene, "capture", capture),
     ):
         setattr(owner, name, function)

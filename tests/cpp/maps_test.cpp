@@ -1,7 +1,9 @@
 #include "burnish/render/environment_maps.h"
 #include "burnish/sampling/cube_texels.h"
+#include "burnish/sampling/prefilter_table.h"
 #include "burnish/sampling/spherical_harmonics.h"
 #include "burnish/sampling/texel_alias.h"
+#include "shared/prefilter.h"
 
 #include <algorithm>
 #include <cmath>
@@ -113,6 +115,36 @@ TEST(EnvironmentMaps, ReportWhatUploadAndPyramidTook) {
     }
 }
 
+TEST(EnvironmentMaps, ArePrefilteredFromTheirPyramidsIfAskedTo) {
+    const auto environment = random_environment(16, 1);
+    Pyramid pyramid(device());
+    Prefilter prefilter(device());
+    EnvironmentMaps maps(device(), pyramid, std::span(&environment, 1), PyramidFilter::gauss6, &prefilter);
+    ASSERT_EQ(maps.pass_times().size(), 3u);
+    EXPECT_EQ(maps.pass_times()[2].name, "prefilter");
+    EXPECT_EQ(maps.image().layout(), VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
+    EnvironmentMaps plain(device(), pyramid, std::span(&environment, 1), PyramidFilter::gauss6);
+    const auto levels = maps.read_levels(0), others = plain.read_levels(0);
+    ASSERT_EQ(levels.size(), others.size());
+    EXPECT_EQ(levels[0], others[0]);
+    for (size_t level = 1; level < levels.size(); ++level) {
+        EXPECT_NE(levels[level], others[level]) << "level " << level;
+    }
+}
+
+TEST(PrefilterTable, HoldsWholePhasesOfSamplesAboveTheHorizon) {
+    for (uint32_t level = 1; level <= 11; ++level) {
+        const SampleTable table = build_prefilter_table(level, 2048);
+        const size_t most = std::min<size_t>(size_t{64} << (level - 1), 1024);
+        EXPECT_EQ(table.entries.size() % shared::PREFILTER_PHASE, 0u);
+        EXPECT_LE(table.entries.size(), most);
+        EXPECT_GE(table.entries.size(), level == 1 ? 64u : 100u) << "level " << level;
+        for (const glm::vec4& entry : table.entries) {
+            EXPECT_LT(entry.x * entry.x + entry.y * entry.y, 1.0f);
+        }
+    }
+}
+
 TEST(EnvironmentMaps, RefuseWhatDoesNotFitTogether) {
     Pyramid pyramid(device());
     const auto make = [&](const std::vector<std::shared_ptr<const Environment>>& environments) {
@@ -124,6 +156,11 @@ TEST(EnvironmentMaps, RefuseWhatDoesNotFitTogether) {
     EXPECT_PRED2(holds, make(std::vector(most + 1, small)), "got " + std::to_string(most + 1));
     EXPECT_PRED2(holds, make({small, nullptr}), "environments: expected environments, got none");
     EXPECT_PRED2(holds, make({small, random_environment(4, 1)}), "expected one face size, got 2 and 4");
+    Prefilter prefilter(device());
+    EXPECT_PRED2(holds, refusal([&] {
+                     EnvironmentMaps(device(), pyramid, std::span(&small, 1), std::nullopt, &prefilter);
+                 }),
+                 "filter: expected one, from whose pyramid to prefilter, got none");
     EnvironmentMaps maps(device(), pyramid, std::span(&small, 1), PyramidFilter::box);
     EXPECT_EQ(refusal([&] { maps.read_levels(1); }), "cube: expected 0..0, got 1");
 }

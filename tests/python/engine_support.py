@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from burnish.oracle.cube_map import border_indices
 from burnish.oracle.raster import Camera, Object
 
 
@@ -42,6 +43,23 @@ def smooth_environment_faces(face_size, seed=3):
     d = cube_directions(face_size)
     waves = sum(np.sin(2 * (d @ rng.standard_normal((3, 3))) + rng.uniform(0, 6, 3)) for _ in range(3))
     return np.ascontiguousarray(np.exp(0.5 * waves), np.float32)
+
+
+def edge_texels(face_size):
+    """Of each of the 12 edges: the faces on both sides and the texels along it, in pairs."""
+    inner, _ = border_indices(face_size, 1)
+    flat = np.arange(6 * face_size**2).reshape(6, face_size, face_size)
+    edges = {}
+    for face in range(6):
+        sides = {
+            "left": (flat[face, :, 0], inner[face, 1:-1, 0]),
+            "right": (flat[face, :, -1], inner[face, 1:-1, -1]),
+            "top": (flat[face, 0], inner[face, 0, 1:-1]),
+            "bottom": (flat[face, -1], inner[face, -1, 1:-1]),
+        }
+        for own, other in sides.values():
+            edges[frozenset((face, int(other[0]) // face_size**2))] = (own, other)
+    return edges
 
 
 def oracle_objects(scene, materials=None):

@@ -118,10 +118,11 @@ std::string describe(const ShadeClass& one, const Scene& scene, const Plan& plan
         text += "; mixtures placed at every point by the lobe's aspect on the map";
         break;
     case TableForm::matched_by_view:
-        text += "; wide round lobes, mixtures placed for every view when the material changes";
+        text += "; round lobes, mixtures placed for every view when the material changes";
         break;
     case TableForm::prefiltered:
         text += "; one lookup a lobe in a prefiltered map";
+        if (one.traits.has_tangent) text += ", brushed lobes as the round ones of slope sqrt(mx my)";
         break;
     }
     return text;
@@ -174,6 +175,15 @@ void add_effect_lines(const Scene& scene, Plan& plan) {
         {"own maps", own > 0,
          own > 0 ? message(own, " of ", scene.objects.size(), " objects reflect a map of their own")
                  : "every object reflects the scene's environment"});
+    size_t sun_count = 0;
+    for (const std::vector<Sun>& suns : plan.suns)
+        sun_count += suns.size();
+    plan.effects.push_back({"sun split", sun_count > 0,
+                            sun_count > 0 ? message(sun_count, sun_count == 1 ? " sun is" : " suns are",
+                                                    " taken out of the map and shaded directly")
+                            : std::holds_alternative<Matched>(plan.settings.sampler)
+                                ? "no map has a sun"
+                                : "only the matched sampler splits suns off"});
     const bool has_rotation = std::any_of(plan.environments.begin(), plan.environments.end(),
                                           [](const auto& one) { return one->rotation != glm::mat3(1.0f); });
     plan.effects.push_back({"map rotation", has_rotation,
@@ -198,6 +208,11 @@ void add_pass_lines(Plan& plan) {
         add("pyramid",
             message(pyramid_filter_name(plan.settings.filter), " levels of ", plan.environments.size(),
                     plan.environments.size() == 1 ? " map" : " maps", ", once per map"));
+    if (has_lookups && std::holds_alternative<Prefiltered>(plan.settings.sampler))
+        add("prefilter", "each level the map as one roughness sees it, for one lookup a lobe, once per map");
+    if (has_lookups && std::holds_alternative<Matched>(plan.settings.sampler))
+        add("prefilter",
+            "levels that are round on the sphere, so that a lookup has one width everywhere, once per map");
     add("surface", plan.has_varying
                        ? "rasterises into the wide G-buffer: textures or vertex colours vary over a surface"
                        : "rasterises into 8 bytes a pixel and depth");

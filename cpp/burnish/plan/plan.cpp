@@ -19,19 +19,31 @@ std::shared_ptr<const Environment> black_environment() {
     return black;
 }
 
-uint32_t index_of(std::vector<std::shared_ptr<const Environment>>& environments,
-                  const std::shared_ptr<const Environment>& one) {
-    const auto found = std::find(environments.begin(), environments.end(), one);
-    if (found != environments.end()) return uint32_t(found - environments.begin());
-    environments.push_back(one);
-    return uint32_t(environments.size() - 1);
+uint32_t add_environment(Plan& plan, const std::shared_ptr<const Environment>& read,
+                         const std::shared_ptr<const Environment>& whole, const std::vector<Sun>& suns) {
+    const auto found = std::find(plan.environments.begin(), plan.environments.end(), read);
+    if (found != plan.environments.end()) return uint32_t(found - plan.environments.begin());
+    plan.environments.push_back(read);
+    plan.whole_environments.push_back(whole);
+    plan.suns.push_back(suns);
+    return uint32_t(plan.environments.size() - 1);
+}
+
+/// The map that lobes look up, with its suns taken out where the sampler shades them directly.
+uint32_t add_lit_environment(Plan& plan, const std::shared_ptr<const Environment>& whole, SunCache& suns) {
+    if (!plan.settings.has_lobes || !std::holds_alternative<Matched>(plan.settings.sampler))
+        return add_environment(plan, whole, whole, {});
+    const SplitEnvironment split = suns.split(whole);
+    return add_environment(plan, split.rest, whole, split.suns);
 }
 
 /// Every pair of material and map that some object shows.
-void add_instances(const Scene& scene, Plan& plan) {
+void add_instances(const Scene& scene, Plan& plan, SunCache& suns) {
+    const auto far = scene.environment ? scene.environment : black_environment();
+    // A background is drawn with its suns; where there is none, the map is not needed for it.
+    if (plan.has_background || scene.objects.empty()) add_environment(plan, far, far, {});
     for (const Object& object : scene.objects) {
-        const uint32_t environment =
-            index_of(plan.environments, object.reflects ? object.reflects : plan.environments[0]);
+        const uint32_t environment = add_lit_environment(plan, object.reflects ? object.reflects : far, suns);
         const auto found =
             std::find_if(plan.instances.begin(), plan.instances.end(), [&](const MaterialInstance& instance) {
                 return instance.material == object.material && instance.environment == environment;
@@ -72,19 +84,21 @@ bool fits_into_constants(const Sampler& sampler) {
     return false;
 }
 
-/// Slope from which a component of a mixture bends so much that its mean takes nine points (measured: maths, section 6).
+/// Slope from which a component of a mixture bends so much that its mean takes nine points (measured: maths,
+/// section 6).
 constexpr float WIDE_LOBE = 0.2f;
 
-/// Round wide lobes look up no map so narrowly that the metric of its faces matters: their lookups depend on the
-/// view alone. Narrow and brushed ones are placed at every point, textured ones with as many points as wide lobes
-/// need.
+/// Lookups of round lobes depend on the angle of view alone. Brushed and textured ones are placed at every
+/// point, with as many points a component as the widest lobe needs.
 TableForm matched_form(const Material& material, ShadeTraits& traits) {
-    const auto is_wide = [](const KurtLobe& lobe) {
-        return !lobe.is_anisotropic() && lobe.roughness.x > WIDE_LOBE;
+    const auto any = [&](const auto& asks) {
+        return std::any_of(material.lobes.begin(), material.lobes.end(), asks);
     };
-    traits.has_wide_components = traits.has_varying;
-    if (!traits.has_varying && std::all_of(material.lobes.begin(), material.lobes.end(), is_wide))
+    if (!traits.has_varying && !any([](const KurtLobe& lobe) { return lobe.is_anisotropic(); }))
         return TableForm::matched_by_view;
+    traits.has_wide_components = traits.has_varying || any([](const KurtLobe& lobe) {
+                                     return std::min(lobe.roughness.x, lobe.roughness.y) > WIDE_LOBE;
+                                 });
     return TableForm::matched;
 }
 
@@ -99,6 +113,7 @@ ShadeTraits traits_of(const Scene& scene, const Plan& plan, const MaterialInstan
     traits.has_map_rotation = environment.rotation != glm::mat3(1.0f);
     traits.map_set = map_set_of(plan, instance.environment);
     if (!plan.settings.has_lobes) return traits;
+    if (!material.lobes.empty()) traits.sun_count = uint32_t(plan.suns[instance.environment].size());
 
     traits.lobe_count = uint32_t(material.lobes.size());
     for (const KurtLobe& lobe : material.lobes) {
@@ -159,6 +174,7 @@ void share_pipelines(ShadeTraits& traits) {
     traits.has_wide_components = traits.table == TableForm::matched;
     traits.alpha = AlphaForm::general;
     traits.has_coat = traits.has_varying && traits.lobe_count > 1;
+    if (traits.sun_count > 0) traits.sun_count = shared::MAX_SUNS; // those that are not there have no flux
 }
 
 void add_classes(const Scene& scene, Plan& plan) {
@@ -186,18 +202,40 @@ void add_classes(const Scene& scene, Plan& plan) {
 
 } // namespace
 
-Plan make_plan(const Scene& scene, const PlanSettings& settings) {
+SplitEnvironment SunCache::split(const std::shared_ptr<const Environment>& environment) {
+    std::erase_if(entries_, [](const auto& entry) { return entry.second.environment.expired(); });
+    auto found = entries_.find(environment.get());
+    if (found == entries_.end()) {
+        SunSplit texels = split_suns({environment->face_size(), environment->radiance()});
+        Entry entry{environment, nullptr, std::move(texels.suns)};
+        if (!entry.suns.empty()) {
+            entry.rest = std::make_shared<Environment>(
+                Environment::from_faces(environment->face_size(), std::move(texels.radiance)));
+            entry.rest->name = environment->name + " without its suns";
+        }
+        found = entries_.emplace(environment.get(), std::move(entry)).first;
+    }
+    const Entry& entry = found->second;
+    if (!entry.rest) return {{}, environment};
+    entry.rest->rotation = environment->rotation;
+    entry.rest->exposure = environment->exposure;
+    return {entry.suns, entry.rest};
+}
+
+Plan make_plan(const Scene& scene, const PlanSettings& settings, SunCache& suns) {
     validate(settings.sampler);
     if (settings.spp < 1 || settings.spp > 65536)
         throw std::invalid_argument(message("spp: expected 1..65536, got ", settings.spp));
     Plan plan;
     plan.settings = settings;
-    plan.environments.push_back(scene.environment ? scene.environment : black_environment());
     plan.has_background = scene.show_background && scene.environment;
-    add_instances(scene, plan);
+    add_instances(scene, plan, suns);
     add_map_sets(plan);
     add_classes(scene, plan);
     if (!scene.environment) plan.warnings.push_back("the scene has no environment: only emission is seen");
+    if (plan.has_tangent && std::holds_alternative<Prefiltered>(settings.sampler))
+        plan.warnings.push_back(
+            "prefiltered maps are round: brushed lobes reflect as the round ones of slope sqrt(mx my)");
     add_effect_lines(scene, plan);
     add_pass_lines(plan);
     return plan;

@@ -3,12 +3,14 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "burnish/sampling/pyramid_filter.h"
 #include "burnish/sampling/sampler.h"
+#include "burnish/sampling/sun_split.h"
 #include "burnish/scene/scene.h"
 
 namespace burnish {
@@ -53,8 +55,9 @@ struct ShadeTraits {
     bool has_map_rotation = false;
     TableForm table = TableForm::none;
     bool has_wide_components = false; ///< of matched tables: more points for a component's mean direction
-    glm::vec2 roughness{0.0f}; ///< of constant tables, else 0
-    uint32_t map_set = 0;      ///< index into Plan::map_sets
+    glm::vec2 roughness{0.0f};        ///< of constant tables, else 0
+    uint32_t sun_count = 0;           ///< lights taken out of its map
+    uint32_t map_set = 0;             ///< index into Plan::map_sets
 
     bool operator==(const ShadeTraits&) const = default;
 };
@@ -78,9 +81,33 @@ struct MapSet {
     std::vector<uint32_t> environments; ///< into Plan::environments, in order of layers
 };
 
+/// A map whose suns are taken out, for samplers that shade them directly.
+struct SplitEnvironment {
+    std::vector<Sun> suns;
+    std::shared_ptr<const Environment> rest; ///< the map itself where it has no suns
+};
+
+/// Splits maps, each once: it takes a look at every texel.
+class SunCache {
+public:
+    SplitEnvironment split(const std::shared_ptr<const Environment>& environment);
+
+private:
+    struct Entry {
+        std::weak_ptr<const Environment> environment; // a new one may take an old one's address
+        std::shared_ptr<Environment>
+            rest; // turned and exposed as the environment is today; none without suns
+        std::vector<Sun> suns;
+    };
+    std::map<const Environment*, Entry> entries_;
+};
+
 struct Plan {
     PlanSettings settings;
-    std::vector<std::shared_ptr<const Environment>> environments; ///< the scene's first
+    std::vector<std::shared_ptr<const Environment>> environments; ///< the background first
+    std::vector<std::vector<Sun>> suns;                           ///< taken out of each, by environment
+    /// What lights diffuse surfaces, by environment: the maps with their suns.
+    std::vector<std::shared_ptr<const Environment>> whole_environments;
     std::vector<MapSet> map_sets;
     std::vector<MaterialInstance> instances;
     std::vector<uint32_t> object_instance; ///< for each object of the scene
@@ -99,6 +126,6 @@ struct Plan {
 constexpr size_t MAX_CONSTANT_CLASSES = 6;
 
 /// Chooses passes and shader variants. Throws std::invalid_argument for settings out of range.
-Plan make_plan(const Scene& scene, const PlanSettings& settings);
+Plan make_plan(const Scene& scene, const PlanSettings& settings, SunCache& suns);
 
 } // namespace burnish

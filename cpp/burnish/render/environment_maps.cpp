@@ -34,8 +34,11 @@ uint32_t common_face_size(EnvironmentSpan environments, uint32_t most_layers) {
 } // namespace
 
 EnvironmentMaps::EnvironmentMaps(std::shared_ptr<const vulkan::Device> device, Pyramid& pyramid,
-                                 EnvironmentSpan environments, std::optional<PyramidFilter> filter) {
+                                 EnvironmentSpan environments, std::optional<PyramidFilter> filter,
+                                 Prefilter* prefilter, PrefilterKernel kernel) {
     const uint32_t face_size = common_face_size(environments, device->limits().maxImageArrayLayers);
+    if (prefilter && !filter)
+        throw std::invalid_argument("filter: expected one, from whose pyramid to prefilter, got none");
     const auto cube_count = static_cast<uint32_t>(environments.size());
     vulkan::ImageSettings settings;
     settings.format = VK_FORMAT_R16G16B16A16_SFLOAT;
@@ -63,7 +66,15 @@ EnvironmentMaps::EnvironmentMaps(std::shared_ptr<const vulkan::Device> device, P
     } else {
         commands.transition(image_, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
     }
+    vulkan::Image prefiltered;
+    if (prefilter) {
+        prefiltered = vulkan::Image(device, settings);
+        commands.begin_pass("prefilter");
+        prefilter->record(commands, image_, prefiltered, kernel, *filter);
+        commands.end_pass();
+    }
     commands.submit();
+    if (prefilter) image_ = std::move(prefiltered);
     pass_times_ = {{"upload", upload_time.count()}};
     pass_times_.insert(pass_times_.end(), commands.pass_times().begin(), commands.pass_times().end());
 }

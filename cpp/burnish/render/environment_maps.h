@@ -1,6 +1,7 @@
 // A set of environments on the device: one cube array with all levels.
 #pragma once
 
+#include "burnish/render/prefilter.h"
 #include "burnish/render/pyramid.h"
 #include "burnish/scene/environment.h"
 
@@ -14,19 +15,21 @@ namespace burnish {
 class EnvironmentMaps {
 public:
     /// Uploads the environments, all of one face size, as RGBA16F rounded to nearest even, and makes their
-    /// pyramids; without a filter level 0 alone. Rotation and exposure stay with the environments: they are
-    /// applied when a map is looked up. Throws std::invalid_argument if there is none, if one is null or of
-    /// another size, or if the device's images have too few layers.
+    /// pyramids; without a filter level 0 alone. With `prefilter` the levels are prefiltered from the
+    /// pyramids instead. Rotation and exposure stay with the environments: they are applied when a map is
+    /// looked up. Throws std::invalid_argument if there is none, if one is null or of another size, if
+    /// prefiltered maps are to come without a filter, or if the device's images have too few layers.
     EnvironmentMaps(std::shared_ptr<const vulkan::Device> device, Pyramid& pyramid,
                     std::span<const std::shared_ptr<const Environment>> environments,
-                    std::optional<PyramidFilter> filter);
+                    std::optional<PyramidFilter> filter, Prefilter* prefilter = nullptr,
+                    PrefilterKernel kernel = PrefilterKernel::lobe);
 
     /// In SHADER_READ_ONLY_OPTIMAL; view() is the cube array, or the cube where there is one only.
     vulkan::Image& image() { return image_; }
     uint32_t face_size() const { return image_.settings().width; }
     uint32_t count() const { return image_.settings().layers / 6; }
     uint32_t level_count() const { return image_.settings().levels; }
-    /// "upload", as the host sees it, and "pyramid", as the device does, if one was made.
+    /// "upload", as the host sees it, "pyramid" and "prefilter", as the device does, where they were made.
     const std::vector<vulkan::PassTime>& pass_times() const { return pass_times_; }
 
     /// One cube's levels as stored, finest first: 6 n n 3 floats each (face, row, column, channel).

@@ -55,17 +55,23 @@ std::vector<std::shared_ptr<EnvironmentMaps>> Renderer::prepare_maps(const Plan&
         return std::any_of(cached.environments.begin(), cached.environments.end(),
                            [](const auto& one) { return one.expired(); });
     });
-    const bool has_pyramid = std::any_of(plan.passes.begin(), plan.passes.end(),
-                                         [](const PassLine& line) { return line.name == "pyramid"; });
+    const auto has_pass = [&](const char* name) {
+        return std::any_of(plan.passes.begin(), plan.passes.end(),
+                           [&](const PassLine& line) { return line.name == name; });
+    };
     const std::optional<PyramidFilter> filter =
-        has_pyramid ? std::optional(plan.settings.filter) : std::nullopt;
+        has_pass("pyramid") ? std::optional(plan.settings.filter) : std::nullopt;
+    std::optional<PrefilterKernel> kernel;
+    if (has_pass("prefilter"))
+        kernel = std::holds_alternative<Matched>(plan.settings.sampler) ? PrefilterKernel::spherical
+                                                                        : PrefilterKernel::lobe;
     std::vector<std::shared_ptr<EnvironmentMaps>> result;
     for (const MapSet& set : plan.map_sets) {
         std::vector<std::shared_ptr<const Environment>> environments;
         for (const uint32_t k : set.environments)
             environments.push_back(plan.environments[k]);
         const auto found = std::find_if(maps_.begin(), maps_.end(), [&](const CachedMaps& cached) {
-            return (cached.filter == filter || !filter) &&
+            return (!filter || (cached.filter == filter && cached.kernel == kernel)) &&
                    std::equal(cached.environments.begin(), cached.environments.end(), environments.begin(),
                               environments.end(),
                               [](const auto& one, const auto& other) { return one.lock() == other; });
@@ -74,12 +80,19 @@ std::vector<std::shared_ptr<EnvironmentMaps>> Renderer::prepare_maps(const Plan&
             result.push_back(found->maps);
             continue;
         }
-        const auto maps = std::make_shared<EnvironmentMaps>(device_, pyramid_, environments, filter);
+        const auto maps = std::make_shared<EnvironmentMaps>(device_, pyramid_, environments, filter,
+                                                            kernel ? &prefilter() : nullptr,
+                                                            kernel.value_or(PrefilterKernel::lobe));
         add_pass_times(times, maps->pass_times());
-        maps_.push_back({{environments.begin(), environments.end()}, filter, maps});
+        maps_.push_back({{environments.begin(), environments.end()}, filter, kernel, maps});
         result.push_back(maps);
     }
     return result;
+}
+
+Prefilter& Renderer::prefilter() {
+    if (!prefilter_) prefilter_ = std::make_unique<Prefilter>(device_);
+    return *prefilter_;
 }
 
 GpuScene& Renderer::prepare_scene(const Scene& scene) {
@@ -130,7 +143,10 @@ Report Renderer::start_report(const Scene& scene, const Plan& plan, const ShadeT
     }
     report.warnings.insert(report.warnings.end(), scene.warnings.begin(), scene.warnings.end());
     report.ignored_extensions = scene.ignored_extensions;
-    for (const auto& environment : plan.environments) {
+    for (size_t k = 0; k < plan.whole_environments.size(); ++k) {
+        const auto& environment = plan.whole_environments[k];
+        const auto begin = plan.whole_environments.begin();
+        if (std::find(begin, begin + k, environment) != begin + k) continue; // with and without its suns
         const std::string sentence = environment->texel_report().sentence();
         if (!sentence.empty())
             report.warnings.push_back("environment " + environment->name + ": " + sentence);
@@ -148,7 +164,7 @@ Frame Renderer::render(const Scene& scene, const Camera& camera, const RenderSet
             message("size: expected 1..16384 pixels each way, got ", settings.height, " x ", settings.width));
     pipelines_.take_compile_ms();
     GpuScene& gpu_scene = prepare_scene(scene);
-    const Plan plan = make_plan(scene, settings.plan);
+    const Plan plan = make_plan(scene, settings.plan, suns_);
 
     Frame frame;
     frame.width = settings.width;
@@ -249,7 +265,7 @@ std::vector<glm::vec3> Renderer::shade(const std::shared_ptr<const Environment>&
     scene.materials = {material};
     scene.materials[0].source.reset(); // points carry no texture coordinates: its factors hold everywhere
     scene.objects.emplace_back();
-    const Plan plan = make_plan(scene, settings);
+    const Plan plan = make_plan(scene, settings, suns_);
     std::vector<vulkan::PassTime> times;
     const std::vector<std::shared_ptr<EnvironmentMaps>> maps = prepare_maps(plan, times);
     const ShadeTables tables = make_shade_tables(device_, scene, plan, tables_);
@@ -294,6 +310,15 @@ std::vector<std::vector<float>> Renderer::pyramid(const std::shared_ptr<const En
                                                   std::vector<vulkan::PassTime>* times) {
     const std::lock_guard lock(mutex_);
     EnvironmentMaps maps(device_, pyramid_, std::span(&environment, 1), filter);
+    if (times) *times = maps.pass_times();
+    return maps.read_levels(0);
+}
+
+std::vector<std::vector<float>> Renderer::prefiltered(const std::shared_ptr<const Environment>& environment,
+                                                      PyramidFilter filter,
+                                                      std::vector<vulkan::PassTime>* times) {
+    const std::lock_guard lock(mutex_);
+    EnvironmentMaps maps(device_, pyramid_, std::span(&environment, 1), filter, &prefilter());
     if (times) *times = maps.pass_times();
     return maps.read_levels(0);
 }

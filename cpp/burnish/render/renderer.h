@@ -58,6 +58,11 @@ public:
                                             PyramidFilter filter,
                                             std::vector<vulkan::PassTime>* times = nullptr);
 
+    /// The same of the prefiltered map made from that pyramid.
+    std::vector<std::vector<float>> prefiltered(const std::shared_ptr<const Environment>& environment,
+                                                PyramidFilter filter,
+                                                std::vector<vulkan::PassTime>* times = nullptr);
+
     /// Milliseconds of a 1080p pass that makes the lookups of one lobe and nothing else, `repeats` times; for
     /// benchmarks.
     std::vector<double> time_lookups(const std::shared_ptr<const Environment>& environment,
@@ -66,12 +71,14 @@ public:
 private:
     struct CachedMaps {
         std::vector<std::weak_ptr<const Environment>> environments;
-        std::optional<PyramidFilter> filter; // none: level 0 alone
+        std::optional<PyramidFilter> filter;   // none: level 0 alone
+        std::optional<PrefilterKernel> kernel; // none: a pyramid
         std::shared_ptr<EnvironmentMaps> maps;
     };
 
     std::vector<std::shared_ptr<EnvironmentMaps>> prepare_maps(const Plan& plan,
                                                                std::vector<vulkan::PassTime>& times);
+    Prefilter& prefilter();
     GpuScene& prepare_scene(const Scene& scene);
     const vulkan::Buffer& prepare_alias(const std::vector<std::shared_ptr<const Environment>>& environments);
     FrameTargets& prepare_targets(const Plan& plan, uint32_t width, uint32_t height);
@@ -85,8 +92,10 @@ private:
     std::mutex mutex_;
     Pipelines pipelines_;
     Pyramid pyramid_;
+    std::unique_ptr<Prefilter> prefilter_; // once a frame calls for it
     Placeholders placeholders_;
     TableCache tables_;
+    SunCache suns_;
     uint64_t scene_fingerprint_ = 0;
     std::unique_ptr<GpuScene> scene_;
     std::vector<CachedMaps> maps_;

@@ -75,6 +75,7 @@ void add_pattern_constants(vulkan::SpecializationConstants& constants, const Sha
         .set(shared::SPEC_ALPHA, form_of(traits.alpha))
         .set(shared::SPEC_TABLE, table_of(traits.table, sampler))
         .set(shared::SPEC_FOOTPRINT, is_published ? shared::FOOTPRINT_PUBLISHED : shared::FOOTPRINT_EXACT)
+        .set(shared::SPEC_SUN_COUNT, traits.sun_count)
         .set(shared::SPEC_WITHOUT_LOOKUPS, !settings.has_lookups)
         .set(shared::SPEC_NORMALIZATION, normalization_of(sampler, traits.table));
     if (const auto* matched = std::get_if<Matched>(&sampler))

@@ -7,6 +7,7 @@
 
 #include "burnish/error.h"
 #include "burnish/sampling/matched_table.h"
+#include "burnish/sampling/prefilter_table.h"
 #include "burnish/sampling/spherical_harmonics.h"
 #include "burnish/vulkan/device.h"
 #include "burnish/vulkan/transfer.h"
@@ -66,8 +67,8 @@ public:
     }
 
     /// First entry of the lookups of one isotropic lobe, by view.
-    uint32_t view_table(uint32_t count, const KurtLobe& lobe, bool has_schlick) {
-        MatchedLobe key{count, lobe.roughness.x, lobe.alpha, 1.0f, 0.0f, has_schlick};
+    uint32_t view_table(uint32_t count, const KurtLobe& lobe, bool has_schlick, uint32_t face_size) {
+        MatchedLobe key{count, lobe.roughness.x, lobe.alpha, 1.0f, 0.0f, has_schlick, face_size};
         const float specular = mean(lobe.weight * lobe.r0), total = mean(lobe.weight);
         if (lobe.has_fresnel() && total > 0.0f) {
             // Where nothing is reflected, some direction must still come out.
@@ -133,7 +134,7 @@ KurtLobe lobe_of(const Material& material, uint32_t which, const ShadeTraits& tr
 }
 
 shared::MapRecord map_record(const Environment& environment, uint32_t layer,
-                             const IrradianceCoefficients& irradiance) {
+                             const IrradianceCoefficients& irradiance, const std::vector<Sun>& suns) {
     shared::MapRecord record{};
     record.env_from_world_x = glm::vec4(environment.rotation[0], 0.0f);
     record.env_from_world_y = glm::vec4(environment.rotation[1], 0.0f);
@@ -143,6 +144,10 @@ shared::MapRecord map_record(const Environment& environment, uint32_t layer,
     record.radiance_scale = std::exp2(environment.exposure);
     record.layer = layer;
     record.face_size = environment.face_size();
+    for (size_t k = 0; k < suns.size(); ++k) {
+        record.suns[2 * k] = glm::vec4(suns[k].direction, suns[k].variance);
+        record.suns[2 * k + 1] = glm::vec4(suns[k].flux, 0.0);
+    }
     return record;
 }
 
@@ -218,14 +223,16 @@ ShadeTables make_shade_tables(const vulkan::DevicePointer& device, const Scene& 
             const KurtLobe lobe = lobe_of(material, which, traits);
             shared::LobeRecord record = lobe_record(lobe);
             if (const auto* matched = std::get_if<Matched>(&plan.settings.sampler)) {
-                record.table_begin = traits.table == TableForm::matched_by_view
-                                         ? writer.view_table(matched->samples, lobe, traits.has_fresnel)
-                                         : writer.mixtures(matched->samples);
+                record.table_begin =
+                    traits.table == TableForm::matched_by_view
+                        ? writer.view_table(matched->samples, lobe, traits.has_fresnel, face_size)
+                        : writer.mixtures(matched->samples);
                 record.table_count = matched->samples;
-                record.texel_factor = float(face_size) * float(face_size) /
-                                      (2.0f * lookup_variance(plan.settings.filter));
+                record.variance_share = spherical_share(1.0, face_size);
                 counts[instance.shade_class].insert(matched->samples);
-            } else if (traits.table != TableForm::none && traits.table != TableForm::prefiltered) {
+            } else if (traits.table == TableForm::prefiltered) {
+                counts[instance.shade_class].insert(1);
+            } else if (traits.table != TableForm::none) {
                 const auto samples = writer.samples(traits.table, lobe.roughness, face_size);
                 record.table_begin = samples.begin;
                 record.table_count = samples.count;
@@ -245,8 +252,9 @@ ShadeTables make_shade_tables(const vulkan::DevicePointer& device, const Scene& 
     std::vector<shared::MapRecord> maps(plan.environments.size());
     for (const MapSet& set : plan.map_sets)
         for (uint32_t layer = 0; layer < set.environments.size(); ++layer) {
-            const auto& environment = plan.environments[set.environments[layer]];
-            maps[set.environments[layer]] = map_record(*environment, layer, cache.irradiance(environment));
+            const uint32_t k = set.environments[layer];
+            maps[k] = map_record(*plan.environments[k], layer, cache.irradiance(plan.whole_environments[k]),
+                                 plan.suns[k]);
         }
 
     uint32_t alias_begin = 0;

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "burnish/sampling/matched_table.h"
+#include "burnish/sampling/prefilter_table.h"
 #include "shared/constants.h"
 
 namespace burnish {
@@ -18,35 +19,43 @@ struct Mean {
     glm::dvec3 direction{0.0};
 };
 
-/// 3x3 Gauss-Hermite points of the component at slope (x, y) with deviations (dx, dy).
+struct Point {
+    double x, y, share;
+};
+/// Centre and four corners: exact to the third degree, and of the rules of up to nine points the one that
+/// errs least on wide lobes.
+constexpr double CORNER = 1.0954451150103321; // sqrt(1.2)
+constexpr std::array<Point, 5> POINTS = {{{0.0, 0.0, 4.0 / 24.0},
+                                          {CORNER, CORNER, 5.0 / 24.0},
+                                          {CORNER, -CORNER, 5.0 / 24.0},
+                                          {-CORNER, CORNER, 5.0 / 24.0},
+                                          {-CORNER, -CORNER, 5.0 / 24.0}}};
+
+/// Means of the component at `slope` with a `deviation` along each axis.
 Mean component_mean(const MatchedLobe& lobe, glm::dvec3 omega_o, glm::dvec2 slope, glm::dvec2 deviation) {
-    constexpr std::array<double, 3> nodes = {-1.7320508075688772, 0.0, 1.7320508075688772};
-    constexpr std::array<double, 3> shares = {1.0 / 6.0, 2.0 / 3.0, 1.0 / 6.0};
     Mean mean;
-    for (int i = 0; i < 3; ++i)
-        for (int j = 0; j < 3; ++j) {
-            const glm::dvec3 g(slope.x + nodes[i] * deviation.x, slope.y + nodes[j] * deviation.y, 1.0);
-            const double length2 = glm::dot(g, g), og = glm::dot(omega_o, g);
-            const glm::dvec3 omega_i = 2.0 * og / length2 * g - omega_o;
-            if (omega_i.z <= 0.0 || og <= 0.0) continue;
-            const double cos_power = lobe.alpha == 0.0f ? omega_i.z : std::pow(omega_i.z, 1.0 - lobe.alpha);
-            const double weight = shares[i] * shares[j] * cos_power * std::sqrt(length2);
-            const double schlick = std::pow(std::clamp(1.0 - og / std::sqrt(length2), 0.0, 1.0), 5.0);
-            const double gain = weight * (lobe.specular + lobe.grazing * schlick);
-            mean.base += weight;
-            mean.schlick += weight * schlick;
-            mean.gain += gain;
-            mean.direction += gain * omega_i;
-        }
+    for (const Point& point : POINTS) {
+        const glm::dvec3 g(slope.x + point.x * deviation.x, slope.y + point.y * deviation.y, 1.0);
+        const double length2 = glm::dot(g, g), og = glm::dot(omega_o, g);
+        const glm::dvec3 omega_i = 2.0 * og / length2 * g - omega_o;
+        if (omega_i.z <= 0.0 || og <= 0.0) continue;
+        const double cos_power = lobe.alpha == 0.0f ? omega_i.z : std::pow(omega_i.z, 1.0 - lobe.alpha);
+        const double weight = point.share * cos_power * std::sqrt(length2);
+        const double schlick = std::pow(std::clamp(1.0 - og / std::sqrt(length2), 0.0, 1.0), 5.0);
+        const double gain = weight * (lobe.specular + lobe.grazing * schlick);
+        mean.base += weight;
+        mean.schlick += weight * schlick;
+        mean.gain += gain;
+        mean.direction += gain * omega_i;
+    }
     return mean;
 }
 
-/// Levels that a lookup gains where centres lie far apart against their widths (maths: section 6), as a factor
-/// of its variance.
-double shift_factor(const MatchedLobe& lobe, double rho) {
+/// Levels that a lookup gains where centres lie far apart against their widths (maths: section 6).
+double level_shift(const MatchedLobe& lobe, double rho) {
     const double t = std::min(3.0, rho / lobe.samples);
-    const double wide = std::clamp((lobe.roughness - 0.15) / 0.15, 0.0, 1.0);
-    return std::exp2(2.0 * (-0.05 + 0.16 * t + 0.15 * std::max(0.0, t - 1.0) + 0.04 * wide));
+    const double wide = std::clamp(lobe.roughness - 0.15, 0.0, 0.45);
+    return -0.08 + 0.22 * t + 0.3 * std::max(0.0, t - 1.0) + 0.36 * wide;
 }
 
 class Row {
@@ -59,7 +68,7 @@ public:
         is_swapped_ = foreshortening_ > 1.0;
         rho_ = is_swapped_ ? foreshortening_ : 1.0 / foreshortening_;
         minor_ = 2.0 * lobe.roughness * std::min(1.0, foreshortening_);
-        shift_ = shift_factor(lobe, rho_);
+        shift_ = level_shift(lobe, rho_);
     }
 
     double rho() const { return rho_; }
@@ -73,7 +82,7 @@ public:
             deviation = {deviation.y, deviation.x};
         }
         const Mean mean = component_mean(lobe_, omega_o_, slope, deviation);
-        if (mean.gain < LEAST_GAIN) return {glm::vec4(0.0f, 0.0f, 0.0f, 1.0f), 0.0f};
+        if (mean.gain < LEAST_GAIN) return {glm::vec4(0.0f), 0.0f};
         const double length = glm::length(mean.direction);
         const glm::dvec3 g(slope, 1.0);
         const double linear = std::pow(mixture.z * minor_, 2.0) * std::max(glm::dot(omega_o_, g), 0.0) /
@@ -83,7 +92,7 @@ public:
         const glm::dvec3 mirror(-omega_o_.x, 0.0, omega_o_.z), t1(omega_o_.z, 0.0, omega_o_.x);
         const double near = 1.0 + glm::dot(direction, mirror);
         return {glm::vec4(glm::dot(direction, t1) / near, direction.y / near, mixture.w * mean.base,
-                          variance * shift_),
+                          spherical_level(variance * std::exp2(2.0 * shift_), lobe_.face_size)),
                 float(mean.schlick / mean.base)};
     }
 

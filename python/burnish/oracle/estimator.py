@@ -2,7 +2,7 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any, Literal
+from typing import Literal
 
 import numpy as np
 import numpy.typing as npt
@@ -19,9 +19,9 @@ from .footprint import (
     published_texels,
 )
 from .frame import frame_from_tangent, rotate_frame
-from .importance import Points, importance_half_vectors
+from .importance import Points
 from .kurt_lobe import MIN_COS_O, LobeLike, grazing_factor, kurt_d, kurt_pdf_omega_i, schlick_fresnel, slopes
-from .regular_pattern import choose_pattern, lobe_solid_angle
+from .regular_pattern import lobe_solid_angle
 from .spherical_harmonics import irradiance
 
 Levels = PaddedCube | Sequence[npt.ArrayLike]
@@ -179,20 +179,3 @@ def shade_importance(
 def shade_diffuse(coefficients: npt.ArrayLike, n: npt.ArrayLike, diffuse: npt.ArrayLike) -> Array:
     """Radiance kd/pi E(n) of the diffuse part, E from nine coefficients and never below 0."""
     return as_array(diffuse) / np.pi * np.maximum(irradiance(coefficients, normalize(n)), 0)
-
-
-def shade_lobe(
-    cube: PaddedCube, n: npt.ArrayLike, t: npt.ArrayLike, omega_o: npt.ArrayLike, lobe: LobeLike, sampler: Any
-) -> Array:
-    """Radiance of one lobe by a sampler other than `Reference`, the oracle's or burnish's own."""
-    name = type(sampler).__name__
-    if name == "Regular":
-        pattern = choose_pattern(lobe.roughness, sampler.samples, sampler.threshold)
-        return shade_regular(
-            cube, n, t, omega_o, lobe, pattern,
-            sampler.threshold, sampler.footprint, sampler.normalization, sampler.mip_bias,
-        )  # fmt: skip
-    if name == "Importance":
-        half_vectors = importance_half_vectors(lobe.roughness, sampler.points, sampler.samples)
-        return shade_importance(cube, n, t, omega_o, lobe, half_vectors, sampler.mip_bias)
-    raise ValueError(f"sampler: expected Regular, Importance or Reference, got {name}")

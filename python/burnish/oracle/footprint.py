@@ -8,6 +8,7 @@ import numpy.typing as npt
 
 from .arrays import Array, as_array
 from .cube_map import cube_stretch
+from .pyramid import LOOKUP_VARIANCE, Filter
 
 Footprint = Literal["published", "exact"]
 
@@ -67,3 +68,23 @@ def importance_texels(pdf: npt.ArrayLike, direction: npt.ArrayLike, count: int, 
     """Level-0 texels under one of `count` samples of density `pdf` per steradian: 1/(n p) over a texel's."""
     result: Array = cube_stretch(direction) ** 3 / np.maximum(as_array(pdf), _TINY)
     return result * (face_texels / (4 * count))
+
+
+def planar_level(
+    variance: npt.ArrayLike, direction: npt.ArrayLike, face_texels: int, filter: Filter = "gauss6"
+) -> Array:
+    """Level at which a lookup has this variance per axis of angle, not clamped.
+
+    A kernel round in a face's (u, v) spans r^-2 of its width on the sphere along the radius of the face and
+    r^-1 across: v = 2 variance/(r^-4 + r^-2) in (u, v), and c_f 4^l texels squared are c_f 4^l 4/face_texels.
+
+    Parameters
+    ----------
+    variance : (...), > 0
+    direction : (..., 3)
+        In the map's axes.
+    """
+    r2 = cube_stretch(direction) ** 2
+    v = 2 * as_array(variance) / (r2**-2 + 1 / r2)
+    result: Array = 0.5 * np.log2(v * (face_texels / (4 * LOOKUP_VARIANCE[filter])))
+    return result

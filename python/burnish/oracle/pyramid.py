@@ -17,6 +17,9 @@ TAPS = {
     "gauss6": np.array([1.0, 5.0, 10.0, 10.0, 5.0, 1.0]) / 32,
 }
 
+#: Variance per axis of a bilinear lookup at level l, in 4^l level-0 texels squared (maths.md, section 5).
+LOOKUP_VARIANCE = {"box": 0.25, "gauss4": 5 / 12, "gauss6": 7 / 12}
+
 
 def reduce_level(level: npt.ArrayLike, filter: Filter) -> Array:
     """Return the next coarser level, (6, n/2, n/2, c) of (6, n, n, c)."""

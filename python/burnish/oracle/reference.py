@@ -31,8 +31,8 @@ def shade_reference(
 
     Parameters
     ----------
-    faces : (6, N, N, 3)
-        Level 0.
+    faces : (6, N, N, c)
+        Level 0; three channels, or any number where the lobe's r0 and weight are single numbers.
     n, t, omega_o : (..., 3)
     parts : int
         The lobe is evaluated at parts x parts points of each texel. One is enough while a texel (2/N radian)
@@ -40,7 +40,7 @@ def shade_reference(
 
     Returns
     -------
-    radiance : (..., 3)
+    radiance : (..., c)
     """
     faces = subdivide(faces, parts)
     size = faces.shape[1]
@@ -50,19 +50,20 @@ def shade_reference(
     centers = (2 * np.arange(size) + 1) / size - 1
     grid_u, grid_v = np.meshgrid(centers, centers)
     energy = faces * texel_solid_angle(size)[None, :, :, None]
-    total = np.zeros((len(views), 3))
+    channels = faces.shape[-1]
+    total = np.zeros((len(views), channels))
     # One face at a time bounds memory; its texels are one matrix product per point.
     for face in range(6):
         directions = cube_direction(face, grid_u, grid_v).reshape(-1, 3).T
         for k, (axis, view) in enumerate(zip(axes, views, strict=True)):
-            total[k] += _face_sum(axis @ directions, view, lobe, energy[face].reshape(-1, 3))
-    return as_array(lobe.weight) * total.reshape(*frame.omega_o.shape[:-1], 3)
+            total[k] += _face_sum(axis @ directions, view, lobe, energy[face].reshape(-1, channels))
+    return as_array(lobe.weight) * total.reshape(*frame.omega_o.shape[:-1], channels)
 
 
 def _face_sum(omega_i: Array, omega_o: Array, lobe: LobeLike, energy: Array) -> Array:
     above = np.flatnonzero(omega_i[2] > 0)
     if len(above) == 0:
-        return np.zeros(3)
+        return np.zeros(energy.shape[-1])
     mx, my = slopes(lobe)
     x, y, z = omega_i[:, above] + omega_o[:, None]
     exponent = (x / (mx * z)) ** 2 + (y / (my * z)) ** 2
@@ -73,6 +74,6 @@ def _face_sum(omega_i: Array, omega_o: Array, lobe: LobeLike, energy: Array) -> 
     o_h = 0.5 * np.sqrt(length2)
     d = np.exp(-exponent[near]) * (length2 / (z * z)) ** 2 / (np.pi * mx * my)
     value = d / (4 * o_h) * grazing_factor(omega_i[2, above[near]], omega_o[2], lobe.alpha)
-    fresnel = schlick_fresnel(o_h[:, None], np.broadcast_to(as_array(lobe.r0), 3))
+    fresnel = schlick_fresnel(o_h[:, None], as_array(lobe.r0))
     result: Array = np.sum(value[:, None] * fresnel * energy[above[near]], axis=0)
     return result

@@ -8,10 +8,14 @@ import numpy.typing as npt
 
 from .albedo import directional_albedo
 from .arrays import Array, as_array
-from .cube_map import pad_cube
-from .estimator import local_frame, shade_diffuse, shade_lobe
+from .cube_map import PaddedCube, pad_cube
+from .estimator import local_frame, shade_diffuse, shade_importance, shade_regular
+from .importance import importance_half_vectors
 from .kurt_lobe import LobeLike
+from .matched import read_matched, shade_matched
+from .prefiltered import shade_prefiltered
 from .reference import shade_reference
+from .regular_pattern import choose_pattern
 from .spherical_harmonics import project_cube
 
 
@@ -22,6 +26,23 @@ def conserving_scale(normals: Array, tangents: Array, views: Array, lobe: LobeLi
     omega_o = local_frame(normals, tangents, views, lobe.rotation).omega_o
     albedo: Array = directional_albedo(omega_o, lobe.roughness, lobe.alpha)[..., :1]
     return 1.0 / np.maximum(albedo, 1.0)
+
+
+def shade_lobe(
+    cube: PaddedCube, n: npt.ArrayLike, t: npt.ArrayLike, omega_o: npt.ArrayLike, lobe: LobeLike, sampler: Any
+) -> Array:
+    """Radiance of one lobe by the regular pattern or importance sampling, the oracle's or burnish's own."""
+    name = type(sampler).__name__
+    if name == "Regular":
+        pattern = choose_pattern(lobe.roughness, sampler.samples, sampler.threshold)
+        return shade_regular(
+            cube, n, t, omega_o, lobe, pattern,
+            sampler.threshold, sampler.footprint, sampler.normalization, sampler.mip_bias,
+        )  # fmt: skip
+    if name == "Importance":
+        half_vectors = importance_half_vectors(lobe.roughness, sampler.points, sampler.samples)
+        return shade_importance(cube, n, t, omega_o, lobe, half_vectors, sampler.mip_bias)
+    raise ValueError(f"sampler: expected Regular, Importance, Matched or Reference, got {name}")
 
 
 def shade(
@@ -37,9 +58,9 @@ def shade(
     Parameters
     ----------
     env_levels : list of (6, n, n, 3)
-        From `build_pyramid`.
+        From `build_pyramid`; for Prefiltered from `prefilter_environment`.
     material : Material, or `burnish.Material`
-    sampler : Regular, Importance or Reference, the oracle's or burnish's
+    sampler : Regular, Importance, Matched, Prefiltered or Reference, the oracle's or burnish's
     normals, tangents, views : (..., 3)
 
     Returns
@@ -54,9 +75,15 @@ def shade(
         for lobe in material.lobes:
             light = shade_reference(env_levels[0], normals, tangents, views, lobe)
             total = total + light * conserving_scale(normals, tangents, views, lobe)
+    elif material.lobes and type(sampler).__name__ == "Matched":
+        light_map = read_matched(env_levels, sampler)
+        for lobe in material.lobes:
+            light = shade_matched(light_map, normals, tangents, views, lobe, sampler.samples)
+            total = total + light * conserving_scale(normals, tangents, views, lobe)
     elif material.lobes:
         cube = pad_cube(env_levels)
+        shade_one = shade_prefiltered if type(sampler).__name__ == "Prefiltered" else shade_lobe
         for lobe in material.lobes:
-            light = shade_lobe(cube, normals, tangents, views, lobe, sampler)
+            light = shade_one(cube, normals, tangents, views, lobe, sampler)
             total = total + light * conserving_scale(normals, tangents, views, lobe)
     return total + as_array(getattr(material, "emissive", 0.0))

@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 
 import burnish
-from burnish.oracle.cube_map import FACE_AXES, border_indices
+from burnish.oracle.cube_map import FACE_AXES
 from burnish.oracle.pyramid import build_pyramid, reduce_level
-from engine_support import smooth_environment_faces
+from engine_support import edge_texels, smooth_environment_faces
 
 FILTERS = ["box", "gauss4", "gauss6"]
 
@@ -56,23 +56,6 @@ def test_pyramid_equals_the_oracle_s(device, face_size, filter):
     for level, expected in zip(levels, build_pyramid(faces, filter, half=True), strict=True):
         assert np.all(np.abs(level - expected) <= 2 * half_ulp(expected))
         assert np.mean(level != expected) <= 0.01
-
-
-def edge_texels(face_size):
-    """Of each of the 12 edges: the faces on both sides and the texels along it, in pairs."""
-    inner, _ = border_indices(face_size, 1)
-    flat = np.arange(6 * face_size**2).reshape(6, face_size, face_size)
-    edges = {}
-    for face in range(6):
-        sides = {
-            "left": (flat[face, :, 0], inner[face, 1:-1, 0]),
-            "right": (flat[face, :, -1], inner[face, 1:-1, -1]),
-            "top": (flat[face, 0], inner[face, 0, 1:-1]),
-            "bottom": (flat[face, -1], inner[face, -1, 1:-1]),
-        }
-        for own, other in sides.values():
-            edges[frozenset((face, int(other[0]) // face_size**2))] = (own, other)
-    return edges
 
 
 @pytest.mark.parametrize("filter", FILTERS)

@@ -11,6 +11,8 @@ SOURCES = ("cpp", "glsl", "python", "tests", "scripts", "cmake")
 SUFFIXES = {".cpp", ".h", ".glsl", ".py", ".pyi", ".cmake", ".txt", ""}
 # Style asks for 300 lines and one job; beyond this a file must be split.
 MOST_LINES = 400
+# Numbers made by a script beside them.
+DATA_FILES = {"python/burnish/tables/matched.txt"}
 # Spelled in parts so that this file passes its own test.
 UNFINISHED = re.compile(r"\b(TO" r"DO|FIX" r"ME|X" r"XX)\b(?!\(?\s*#\d+)")
 DEAD_CODE = re.compile(r"^\s*#\s*if 0\b", re.MULTILINE)
@@ -40,7 +42,11 @@ def texts():
 
 
 def test_no_file_is_too_long(texts):
-    long = {name: text.count("\n") for name, text in texts.items() if text.count("\n") > MOST_LINES}
+    long = {
+        name: text.count("\n")
+        for name, text in texts.items()
+        if text.count("\n") > MOST_LINES and name not in DATA_FILES
+    }
     assert not long
 
 

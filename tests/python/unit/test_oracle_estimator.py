@@ -144,7 +144,9 @@ def test_lobes_diffuse_and_emission_add_up(smooth, points):
 
 
 def test_unknown_settings_are_refused(smooth):
-    with pytest.raises(ValueError, match="sampler: expected Regular, Importance or Reference, got str"):
+    with pytest.raises(
+        ValueError, match="sampler: expected Regular, Importance, Matched or Reference, got str"
+    ):
         shade([smooth], Material(lobes=[KurtLobe()]), "regular", Z, X, Z)
     with pytest.raises(ValueError, match='footprint: expected "published" or "exact"'):
         shade_regular([smooth], Z, X, Z, KurtLobe(), [Z], 0.1, footprint="wide")

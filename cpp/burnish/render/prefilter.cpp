@@ -1,0 +1,102 @@
+#include "burnish/render/prefilter.h"
+
+#include "burnish/sampling/prefilter_table.h"
+#include "burnish/vulkan/transfer.h"
+#include "shared/prefilter.h"
+
+#include "spirv/pyramid_prefilter_comp.h"
+
+namespace burnish {
+
+namespace {
+
+constexpr uint32_t TEXEL_BYTES = 8;
+
+VkImageCopy finest_level(const vulkan::ImageSettings& settings) {
+    VkImageCopy copy{};
+    copy.srcSubresource = copy.dstSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, settings.layers};
+    copy.extent = {settings.width, settings.height, 1};
+    return copy;
+}
+
+} // namespace
+
+Prefilter::Prefilter(std::shared_ptr<const vulkan::Device> device)
+    : device_(std::move(device)), shader_(device_, "pyramid/prefilter.comp", pyramid_prefilter_comp_spv),
+      sampler_(device_, {}) {}
+
+const vulkan::ComputePipeline& Prefilter::pipeline(PrefilterKernel kernel) {
+    const auto found = pipelines_.find(kernel);
+    if (found != pipelines_.end()) return found->second;
+    const auto constants = vulkan::SpecializationConstants{}.set(shared::SPEC_PREFILTER_IS_SPHERICAL,
+                                                                 kernel == PrefilterKernel::spherical);
+    return pipelines_.emplace(kernel, vulkan::ComputePipeline(device_, shader_, constants)).first->second;
+}
+
+const Prefilter::Scratch& Prefilter::scratch(const Key& key) {
+    const auto [face_size, kernel, filter] = key;
+    const auto found = scratches_.find(key);
+    if (found != scratches_.end()) return found->second;
+    Scratch scratch;
+    std::vector<glm::vec4> samples;
+    uint32_t texels = 0;
+    for (uint32_t level = 1; face_size >> level; ++level) {
+        const uint32_t size = face_size >> level;
+        const SampleTable table = kernel == PrefilterKernel::lobe
+                                      ? build_prefilter_table(level, face_size)
+                                      : build_spherical_table(size, face_size, filter);
+        scratch.levels.push_back({size, texels, static_cast<uint32_t>(samples.size()),
+                                  static_cast<uint32_t>(table.entries.size())});
+        samples.insert(samples.end(), table.entries.begin(), table.entries.end());
+        texels += 6 * size * size;
+    }
+    scratch.samples =
+        vulkan::make_buffer(device_, std::as_bytes(std::span(samples)), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
+    scratch.texels =
+        vulkan::Buffer(device_, VkDeviceSize{texels} * TEXEL_BYTES, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
+    return scratches_.emplace(key, std::move(scratch)).first->second;
+}
+
+void Prefilter::record(vulkan::Commands& commands, vulkan::Image& pyramid, vulkan::Image& prefiltered,
+                       PrefilterKernel kernel, PyramidFilter filter) {
+    const vulkan::ImageSettings& settings = pyramid.settings();
+    commands.transition(pyramid, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL);
+    commands.transition(prefiltered, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL);
+    const VkImageCopy finest = finest_level(settings);
+    vkCmdCopyImage(commands.handle(), pyramid.handle(), pyramid.layout(), prefiltered.handle(),
+                   prefiltered.layout(), 1, &finest);
+    commands.transition(pyramid, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
+
+    const vulkan::ComputePipeline& used = pipeline(kernel);
+    for (uint32_t cube = 0; cube < settings.layers / 6 && settings.levels > 1; ++cube) {
+        const Scratch& room = scratch({settings.width, kernel, filter});
+        if (cube == 0) {
+            set_ = vulkan::DescriptorSet(used);
+            set_.bind(shared::BINDING_PREFILTER_PYRAMID, pyramid.view_as(VK_IMAGE_VIEW_TYPE_CUBE_ARRAY),
+                      sampler_)
+                .bind(shared::BINDING_PREFILTER_SAMPLES, room.samples)
+                .bind(shared::BINDING_PREFILTER_TEXELS, room.texels);
+        }
+        std::vector<VkBufferImageCopy> copies;
+        for (const Level& level : room.levels) {
+            const shared::PrefilterRecord push{
+                cube, level.size, level.texel_begin, level.sample_begin, level.sample_count, 0, 0, 0};
+            const uint32_t per_group = used.local_size()[0];
+            commands.dispatch(used, set_, vulkan::push_bytes(push),
+                              (level.size * level.size + per_group - 1) / per_group, 1, 6);
+            VkBufferImageCopy copy{};
+            copy.bufferOffset = VkDeviceSize{level.texel_begin} * TEXEL_BYTES;
+            copy.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, static_cast<uint32_t>(copies.size() + 1),
+                                     6 * cube, 6};
+            copy.imageExtent = {level.size, level.size, 1};
+            copies.push_back(copy);
+        }
+        commands.barrier();
+        vkCmdCopyBufferToImage(commands.handle(), room.texels.handle(), prefiltered.handle(),
+                               prefiltered.layout(), static_cast<uint32_t>(copies.size()), copies.data());
+        commands.barrier(); // the next cube writes the same room
+    }
+    commands.transition(prefiltered, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
+}
+
+} // namespace burnish

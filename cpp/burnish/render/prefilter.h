@@ -1,0 +1,58 @@
+// Maps whose levels are no pyramid (glsl/shared/prefilter.h): every level the map as one lobe sees it, or
+// under a Gaussian that is round on the sphere.
+#pragma once
+
+#include "burnish/sampling/pyramid_filter.h"
+#include "burnish/vulkan/commands.h"
+#include "burnish/vulkan/device.h"
+
+#include <map>
+#include <memory>
+#include <tuple>
+#include <vector>
+
+namespace burnish {
+
+enum class PrefilterKernel { lobe, spherical };
+
+/// Makes prefiltered maps from pyramids. Texels are summed in float32 and rounded to the nearest half, ties
+/// to even. Not for several threads at once.
+class Prefilter {
+public:
+    explicit Prefilter(std::shared_ptr<const vulkan::Device> device);
+
+    /// Records the work, between begin_pass and end_pass of the caller if it is to be timed. Both are cube
+    /// arrays of RGBA16F with full levels and of one size; `pyramid` has all of them written, `prefiltered`
+    /// gets all of them. Both are in SHADER_READ_ONLY_OPTIMAL afterwards. This object must live, and record
+    /// nothing else, until the commands are done.
+    /// `filter` made the pyramid.
+    void record(vulkan::Commands& commands, vulkan::Image& pyramid, vulkan::Image& prefiltered,
+                PrefilterKernel kernel, PyramidFilter filter);
+
+private:
+    struct Level {
+        uint32_t size;         // texels along an edge
+        uint32_t texel_begin;  // in the buffer of texels
+        uint32_t sample_begin; // in the buffer of samples
+        uint32_t sample_count;
+    };
+    /// What all maps of one face size share: levels 1 and on, their samples, and room for those of one cube.
+    struct Scratch {
+        std::vector<Level> levels;
+        vulkan::Buffer samples, texels;
+    };
+
+    using Key = std::tuple<uint32_t, PrefilterKernel, PyramidFilter>; ///< face size first
+
+    const Scratch& scratch(const Key& key);
+    const vulkan::ComputePipeline& pipeline(PrefilterKernel kernel);
+
+    std::shared_ptr<const vulkan::Device> device_;
+    vulkan::Shader shader_;
+    std::map<PrefilterKernel, vulkan::ComputePipeline> pipelines_;
+    vulkan::Sampler sampler_;
+    vulkan::DescriptorSet set_; // of the commands recorded last
+    std::map<Key, Scratch> scratches_;
+};
+
+} // namespace burnish

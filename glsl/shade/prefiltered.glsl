@@ -1,0 +1,29 @@
+// Radiance of one lobe by one lookup in a prefiltered map (shared/prefilter.h), times its exact albedo: the split sum.
+#ifndef BURNISH_SHADE_PREFILTERED
+#define BURNISH_SHADE_PREFILTERED
+
+#include "shade/lobe.glsl"
+#include "shade/surface_point.glsl"
+#include "shared/prefilter.h"
+
+// Level whose lobe has this slope, between two levels by the log. The map stands at level 0 for the narrowest lobe it can show;
+// beyond the last level textureLod clamps.
+float prefiltered_level(float roughness, float face_size) {
+    float level = log2(roughness * face_size / PREFILTER_SLOPE);
+    const float map_level = log2(PREFILTER_MAP_SLOPE / PREFILTER_SLOPE);
+    return level >= 1.0 ? level : max((level - map_level) / (1.0 - map_level), 0.0);
+}
+
+// The map knows round lobes: a brushed one is taken for the round one of equal area. Points seen from behind are black.
+vec3 shade_prefiltered(LobeView v, SurfaceLobe lobe, LobeRecord record, float face_size) {
+    vec3 mirror = 2.0 * v.local_o.z * v.frame[2] - v.omega_o;
+    float level = prefiltered_level(sqrt(v.roughness.x * v.roughness.y), face_size);
+    vec3 light = IS_WITHOUT_LOOKUPS ? mirror + level : textureLod(maps, vec4(mirror, v.layer), level).rgb;
+    vec2 albedo = lobe_albedo(record, v.roughness, v.local_o);
+    vec3 reflectance = lobe.specular * albedo.x;
+    if (HAS_FRESNEL) reflectance += lobe.grazing * albedo.y;
+    float scale = v.local_o.z > 0.0 ? v.cos_o_power * conserving_scale(record, albedo, v.cos_o_power) : 0.0;
+    return light * reflectance * scale;
+}
+
+#endif

@@ -1,0 +1,76 @@
+"""The table of `matched`: small Gaussian mixtures fitted to elliptic Gaussian lobes."""
+
+import math
+from dataclasses import dataclass
+from functools import lru_cache
+from pathlib import Path
+
+import numpy as np
+import numpy.typing as npt
+
+from .arrays import Array, as_array
+
+#: Numbers of samples that have a mixture.
+COUNTS = (*range(2, 11), 12, 14, 16, 17, 20, 24, 30, 32, 48, 64)
+#: Rows along the aspect rho, at rho_j = LARGEST_ASPECT^(j/(ASPECT_COUNT - 1)).
+ASPECT_COUNT = 40
+LARGEST_ASPECT = 34.0
+#: Where `fit_matched` writes it.
+TABLE_PATH = Path(__file__).parent.parent / "tables" / "matched.txt"
+#: Of the committed file; the one place that knows it.
+TABLE_SHA256 = "160fb6bfdf209a97a4433e31fd66b3bcbbcd211721f372930232e30c49e314f2"
+
+
+@dataclass(frozen=True)
+class Mixture:
+    """All samples of a mixture, (..., n) each: centre, width in units of the minor axis, weight."""
+
+    y1: Array  # along the major axis, in its unit
+    y2: Array
+    s: Array
+    w: Array
+
+
+@lru_cache(maxsize=1)
+def load_table() -> dict[int, Array]:
+    """Rows y1, y2, s, w of the half-samples, (ASPECT_COUNT, half, 4) for each count."""
+    text = TABLE_PATH.read_text(encoding="ascii").splitlines()
+    numbers = np.array([line.rstrip(",").split(",") for line in text if not line.startswith("//")], float)
+    table, start = {}, 0
+    for count in COUNTS:
+        half = (count + 1) // 2
+        table[count] = numbers[start : start + ASPECT_COUNT * half].reshape(ASPECT_COUNT, half, 4)
+        start += ASPECT_COUNT * half
+    if start != len(numbers):
+        raise ValueError(f"{TABLE_PATH}: expected {start} rows, got {len(numbers)}")
+    return table
+
+
+def closest_count(samples: int) -> int:
+    """Count that has a mixture and is closest to `samples`; of equally close ones the larger."""
+    if samples < 1:
+        raise ValueError(f"samples: expected an integer >= 1, got {samples}")
+    ranked: list[int] = sorted(COUNTS, key=lambda count: (abs(count - samples), -count))
+    return ranked[0]
+
+
+def mixture_at(rows: Array, samples: int, rho: npt.ArrayLike) -> Mixture:
+    """Interpolate the rows of one count linearly in ln rho and unfold the pairs (y, -y); weights sum to 1.
+
+    Parameters
+    ----------
+    rows : (ASPECT_COUNT, half, 4)
+    rho : (...)
+        At least 1; beyond the last row that row serves.
+    """
+    rho = as_array(rho)
+    at = np.clip(
+        np.log(np.maximum(rho, 1.0)) * ((ASPECT_COUNT - 1) / math.log(LARGEST_ASPECT)), 0, ASPECT_COUNT - 1
+    )
+    low = np.minimum(at.astype(np.int64), ASPECT_COUNT - 2)
+    share = (at - low)[..., None, None]
+    half = (1 - share) * rows[low] + share * rows[low + 1]
+    pairs = half[..., samples % 2 :, :]
+    both = np.concatenate([half, pairs * [-1.0, -1.0, 1.0, 1.0]], axis=-2)
+    w = both[..., 3] / np.sum(both[..., 3], axis=-1, keepdims=True)
+    return Mixture(both[..., 0], both[..., 1], both[..., 2], w)

@@ -1,0 +1,1 @@
+"""Committed data, each with the script that makes it."""
