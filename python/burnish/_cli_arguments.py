@@ -51,7 +51,7 @@ def parse_size(text: str) -> tuple[int, int]:
 
 
 def parse_sampler(text: str) -> "Sampler":
-    """Read a sampler such as ``matched:14``, ``regular:14``, ``importance:30:fibonacci`` or ``reference:0.002``."""
+    """Read a sampler such as ``matched:14``, ``importance:30:fibonacci`` or ``reference:0.002``."""
     from burnish import Importance, Matched, Prefiltered, Reference, Regular
 
     name, *options = text.split(":")

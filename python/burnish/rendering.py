@@ -11,9 +11,7 @@ from burnish._device import default_device
 from burnish.frame import Frame
 from burnish.report import Report
 
-Sampler: TypeAlias = (
-    _core.Regular | _core.Importance | _core.Matched | _core.Prefiltered | _core.Reference
-)
+Sampler: TypeAlias = _core.Regular | _core.Importance | _core.Matched | _core.Prefiltered | _core.Reference
 Filter: TypeAlias = Literal["box", "gauss4", "gauss6"]
 FloatArray: TypeAlias = NDArray[np.float32]
 
