@@ -173,6 +173,16 @@ std::shared_ptr<render::Frame> render_scene(render::Renderer& renderer, const Sc
         renderer.render(scene, camera ? *camera : scene.default_camera(), settings));
 }
 
+py::list levels_list(uint32_t face_size, std::vector<std::vector<float>> levels) {
+    py::list result;
+    py::ssize_t size = face_size;
+    for (std::vector<float>& level : levels) {
+        result.append(make_array(std::move(level), {6, size, size, 3}));
+        size /= 2;
+    }
+    return result;
+}
+
 py::list pyramid_levels(render::Renderer& renderer, const std::shared_ptr<Environment>& environment,
                         const std::string& filter) {
     std::vector<std::vector<float>> levels;
@@ -181,13 +191,18 @@ py::list pyramid_levels(render::Renderer& renderer, const std::shared_ptr<Enviro
         const py::gil_scoped_release release;
         levels = renderer.pyramid(environment, chosen);
     }
-    py::list result;
-    py::ssize_t size = environment->face_size();
-    for (std::vector<float>& level : levels) {
-        result.append(make_array(std::move(level), {6, size, size, 3}));
-        size /= 2;
+    return levels_list(environment->face_size(), std::move(levels));
+}
+
+py::list spherical_levels(render::Renderer& renderer, const std::shared_ptr<Environment>& environment,
+                          const std::string& filter) {
+    std::vector<std::vector<float>> levels;
+    {
+        const PyramidFilter chosen = pyramid_filter(filter);
+        const py::gil_scoped_release release;
+        levels = renderer.prefiltered(PrefilterKernel::spherical, environment, chosen);
     }
-    return result;
+    return levels_list(environment->face_size(), std::move(levels));
 }
 
 py::list prefiltered_levels(render::Renderer& renderer, const std::shared_ptr<Environment>& environment,
@@ -196,7 +211,7 @@ py::list prefiltered_levels(render::Renderer& renderer, const std::shared_ptr<En
     {
         const PyramidFilter chosen = pyramid_filter(filter);
         const py::gil_scoped_release release;
-        levels = renderer.prefiltered(environment, chosen);
+        levels = renderer.prefiltered(PrefilterKernel::lobe, environment, chosen);
     }
     py::list result;
     uint32_t size = environment->face_size();
@@ -224,9 +239,10 @@ py::list pyramid_times(render::Renderer& renderer, const std::shared_ptr<Environ
 }
 
 py::list prefilter_times(render::Renderer& renderer, const std::shared_ptr<Environment>& environment,
-                         const std::string& filter) {
+                         const std::string& filter, bool is_spherical) {
     std::vector<vulkan::PassTime> times;
-    renderer.prefiltered(environment, pyramid_filter(filter), &times);
+    renderer.prefiltered(is_spherical ? PrefilterKernel::spherical : PrefilterKernel::lobe, environment,
+                         pyramid_filter(filter), &times);
     return times_list(times);
 }
 
@@ -259,7 +275,9 @@ void bind_render(py::module_& m) {
         "environment_prefiltered", &prefiltered_levels, py::arg("device"), py::arg("environment"),
         py::arg("filter"),
         "List of (roughness, (6, n, n, 3) float32), finest first, as the sampler Prefiltered looks them up.");
-    m.def("prefilter_times", &prefilter_times, py::arg("device"), py::arg("environment"), py::arg("filter"),
+    m.def("environment_spherical", &spherical_levels, py::arg("device"), py::arg("environment"),
+          py::arg("filter"), "List of (6, n, n, 3) float32, finest first, as the sampler Matched looks them up.");
+    m.def("prefilter_times", &prefilter_times, py::arg("device"), py::arg("environment"), py::arg("filter"), py::arg("is_spherical") = false,
           "List of (pass, milliseconds) of making one prefiltered map, for benchmarks.");
     m.def("pyramid_times", &pyramid_times, py::arg("device"), py::arg("environment"), py::arg("filter"),
           "List of (pass, milliseconds) of making one map's pyramid, for benchmarks.");

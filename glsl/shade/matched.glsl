@@ -12,6 +12,7 @@ layout(constant_id = SPEC_WIDE_COMPONENTS) const bool HAS_WIDE_COMPONENTS = fals
 //   g = n + y1 g1 + y2 g2,  og = o.g = o.n + y1 o1 + y2 o2,  |g|^2 = 1 + y1^2 m11 + 2 y1 y2 m12 + y2^2 m22.
 struct MixtureView {
     vec3 g1, g2;         // environment space
+    float inverse_rho;   // a component of width s has a deviation of s/rho in y1, of s in y2
     float o1, o2;
     // One deviation of a component of s = 1: h along the direction in which cos_i changes most, p across it (o.p = 0).
     vec3 h, p;
@@ -80,12 +81,12 @@ MixtureView view_mixture(LobeView v, uint table_begin, float variance_share, vec
     view.g2 = slope2.x * v.frame[0] + slope2.y * v.frame[1];
     view.o1 = dot(slope1, v.local_o.xy);
     view.o2 = dot(slope2, v.local_o.xy);
-    float inverse_rho = 1.0 / axes.rho;
-    vec2 slope = vec2(view.o1 * inverse_rho, view.o2);
+    view.inverse_rho = 1.0 / axes.rho;
+    vec2 slope = vec2(view.o1 * view.inverse_rho, view.o2);
     float steepness = length(slope);
     vec2 u = steepness > 1e-7 ? slope / steepness : vec2(0.0, 1.0);
-    view.h = (u.x * inverse_rho) * view.g1 + u.y * view.g2;
-    view.p = (-u.y * inverse_rho) * view.g1 + u.x * view.g2;
+    view.h = (u.x * view.inverse_rho) * view.g1 + u.y * view.g2;
+    view.p = (-u.y * view.inverse_rho) * view.g1 + u.x * view.g2;
     view.oh = dot(u, slope);
     view.p2 = dot(view.p, view.p);
     view.linear = axes.minor * axes.minor / axes.foreshortening;
@@ -187,7 +188,7 @@ void add_point(LobeView v, MixtureView view, vec3 offset, float share, inout Com
 // A wide component by its centre and four corners at sqrt(1.2) deviations: exact to the third degree, and of the rules of up to nine
 // points the one that errs least on wide lobes. Its variance is -ln(|M|/G).
 Lookup place_wide(LobeView v, MixtureView view, Pair pair, vec3 d, float og) {
-    vec3 across = (1.0954451 * pair.s) * view.p, along = (1.0954451 * pair.s) * view.h;
+    vec3 along = (1.0954451 * pair.s * view.inverse_rho) * view.g1, across = (1.0954451 * pair.s) * view.g2;
     Component component = Component(0.0, 0.0, 0.0, vec3(0.0));
     add_point(v, view, d, 4.0 / 24.0, component);
     add_point(v, view, d - across - along, 5.0 / 24.0, component);

@@ -314,11 +314,12 @@ std::vector<std::vector<float>> Renderer::pyramid(const std::shared_ptr<const En
     return maps.read_levels(0);
 }
 
-std::vector<std::vector<float>> Renderer::prefiltered(const std::shared_ptr<const Environment>& environment,
+std::vector<std::vector<float>> Renderer::prefiltered(PrefilterKernel kernel,
+                                                      const std::shared_ptr<const Environment>& environment,
                                                       PyramidFilter filter,
                                                       std::vector<vulkan::PassTime>* times) {
     const std::lock_guard lock(mutex_);
-    EnvironmentMaps maps(device_, pyramid_, std::span(&environment, 1), filter, &prefilter());
+    EnvironmentMaps maps(device_, pyramid_, std::span(&environment, 1), filter, &prefilter(), kernel);
     if (times) *times = maps.pass_times();
     return maps.read_levels(0);
 }

@@ -59,7 +59,8 @@ public:
                                             std::vector<vulkan::PassTime>* times = nullptr);
 
     /// The same of the prefiltered map made from that pyramid.
-    std::vector<std::vector<float>> prefiltered(const std::shared_ptr<const Environment>& environment,
+    std::vector<std::vector<float>> prefiltered(PrefilterKernel kernel,
+                                                const std::shared_ptr<const Environment>& environment,
                                                 PyramidFilter filter,
                                                 std::vector<vulkan::PassTime>* times = nullptr);
 

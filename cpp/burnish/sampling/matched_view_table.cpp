@@ -64,10 +64,9 @@ public:
         omega_o_ = {std::sqrt(1.0 - cos_o * cos_o), 0.0, cos_o};
         const double floored = std::max(cos_o, 0.03), along = omega_o_.x * lobe.roughness;
         foreshortening_ = std::sqrt(floored * floored + along * along);
-        // Past a slope of 1 the lobe may be longer across the plane of view than in it.
-        is_swapped_ = foreshortening_ > 1.0;
-        rho_ = is_swapped_ ? foreshortening_ : 1.0 / foreshortening_;
-        minor_ = 2.0 * lobe.roughness * std::min(1.0, foreshortening_);
+        // Slopes are 1 at most, so the lobe is never longer across the plane of view than in it.
+        rho_ = 1.0 / foreshortening_;
+        minor_ = 2.0 * lobe.roughness * foreshortening_;
         shift_ = level_shift(lobe, rho_);
     }
 
@@ -75,12 +74,8 @@ public:
 
     /// Entry and Schlick term of the component at sign * (y1, y2).
     std::pair<glm::vec4, float> entry(glm::dvec4 mixture, double sign) const {
-        glm::dvec2 slope = sign * double(lobe_.roughness) * glm::dvec2(mixture);
-        glm::dvec2 deviation = double(lobe_.roughness) * mixture.z * glm::dvec2(1.0 / rho_, 1.0);
-        if (is_swapped_) {
-            slope = {-slope.y, slope.x};
-            deviation = {deviation.y, deviation.x};
-        }
+        const glm::dvec2 slope = sign * double(lobe_.roughness) * glm::dvec2(mixture);
+        const glm::dvec2 deviation = double(lobe_.roughness) * mixture.z * glm::dvec2(1.0 / rho_, 1.0);
         const Mean mean = component_mean(lobe_, omega_o_, slope, deviation);
         if (mean.gain < LEAST_GAIN) return {glm::vec4(0.0f), 0.0f};
         const double length = glm::length(mean.direction);
@@ -100,7 +95,6 @@ private:
     MatchedLobe lobe_;
     glm::dvec3 omega_o_;
     double foreshortening_, rho_, minor_, shift_;
-    bool is_swapped_;
 };
 
 } // namespace

@@ -18,7 +18,7 @@ LARGEST_ASPECT = 34.0
 #: Where `fit_matched` writes it.
 TABLE_PATH = Path(__file__).parent.parent / "tables" / "matched.txt"
 #: Of the committed file; the one place that knows it.
-TABLE_SHA256 = "160fb6bfdf209a97a4433e31fd66b3bcbbcd211721f372930232e30c49e314f2"
+TABLE_SHA256 = "8823304dcaef3bbe5bc459cb6a6c540b9f0f8370067cbce5bc5681847d7a95cf"
 
 
 @dataclass(frozen=True)
@@ -74,3 +74,28 @@ def mixture_at(rows: Array, samples: int, rho: npt.ArrayLike) -> Mixture:
     both = np.concatenate([half, pairs * [-1.0, -1.0, 1.0, 1.0]], axis=-2)
     w = both[..., 3] / np.sum(both[..., 3], axis=-1, keepdims=True)
     return Mixture(both[..., 0], both[..., 1], both[..., 2], w)
+
+
+#: Rows that the engine reads, the nearest one: of aspects, evenly in their log; of views, at
+#: cos_o = (j/1023)^2.
+TABLE_ROWS = 1024
+
+
+def nearest_aspect(rho: npt.ArrayLike) -> Array:
+    """Aspect of the row that serves an aspect >= 1."""
+    steps = (TABLE_ROWS - 1) / math.log(LARGEST_ASPECT)
+    row = np.floor(np.log(np.maximum(as_array(rho), 1.0)) * steps + 0.5)
+    aspect: Array = np.exp(np.minimum(row, TABLE_ROWS - 1) / steps)
+    return aspect
+
+
+def nearest_view(omega_o: npt.ArrayLike) -> Array:
+    """Local view of the same azimuth whose cosine is that of the nearest row, at least 1e-4; (..., 3)."""
+    omega_o = as_array(omega_o)
+    row = np.floor(np.sqrt(np.clip(omega_o[..., 2], 0, 1)) * (TABLE_ROWS - 1) + 0.5)
+    cosine = np.maximum((row / (TABLE_ROWS - 1)) ** 2, 1e-4)
+    sine = np.hypot(omega_o[..., 0], omega_o[..., 1])
+    scale = np.sqrt(1 - cosine**2) / np.where(sine > 0, sine, 1.0)
+    # A view along the normal has no azimuth: the first axis serves.
+    x = np.where(sine > 0, omega_o[..., 0] * scale, np.sqrt(1 - cosine**2))
+    return np.stack([x, omega_o[..., 1] * scale, cosine], axis=-1)

@@ -12,7 +12,7 @@ from .cube_map import PaddedCube, pad_cube
 from .estimator import local_frame, shade_diffuse, shade_importance, shade_regular
 from .importance import importance_half_vectors
 from .kurt_lobe import LobeLike
-from .matched import read_matched, shade_matched
+from .matched import MatchedMap, read_matched, shade_matched
 from .prefiltered import shade_prefiltered
 from .reference import shade_reference
 from .regular_pattern import choose_pattern
@@ -43,6 +43,17 @@ def shade_lobe(
         half_vectors = importance_half_vectors(lobe.roughness, sampler.points, sampler.samples)
         return shade_importance(cube, n, t, omega_o, lobe, half_vectors, sampler.mip_bias)
     raise ValueError(f"sampler: expected Regular, Importance, Matched or Reference, got {name}")
+
+
+def shade_matched_lobes(
+    light_map: MatchedMap, material: Any, samples: int, normals: Array, tangents: Array, views: Array
+) -> Array:
+    """Radiance of all lobes of a material from a map that has been read for `matched`, (..., 3)."""
+    total = np.zeros(normals.shape)
+    for lobe in material.lobes:
+        light = shade_matched(light_map, normals, tangents, views, lobe, samples)
+        total = total + light * conserving_scale(normals, tangents, views, lobe)
+    return total
 
 
 def shade(
@@ -77,9 +88,7 @@ def shade(
             total = total + light * conserving_scale(normals, tangents, views, lobe)
     elif material.lobes and type(sampler).__name__ == "Matched":
         light_map = read_matched(env_levels, sampler)
-        for lobe in material.lobes:
-            light = shade_matched(light_map, normals, tangents, views, lobe, sampler.samples)
-            total = total + light * conserving_scale(normals, tangents, views, lobe)
+        total = total + shade_matched_lobes(light_map, material, sampler.samples, normals, tangents, views)
     elif material.lobes:
         cube = pad_cube(env_levels)
         shade_one = shade_prefiltered if type(sampler).__name__ == "Prefiltered" else shade_lobe

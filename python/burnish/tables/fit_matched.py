@@ -16,15 +16,17 @@ from tqdm import tqdm
 from burnish.oracle.matched_table import COUNTS, TABLE_PATH, mixture_at
 from burnish.oracle.spherical_pyramid import PREFILTER_SAMPLES
 from burnish.tables.fit_objective import Mixtures, copies, fit, quantiser
-from burnish.tables.fit_selection import Training, make_training, measure, score
+from burnish.tables.fit_selection import Training, make_training, score
 
 Float64 = NDArray[np.float64]
 
 # Aspects whose quantisers are starts, relative errors of a kernel to fit for, weights of the moments:
 # more weight on them keeps long lobes long, less leaves fewer gaps in them.
-_START_ASPECTS = (2.6, 4.5, 8.0, 15.0)
+_START_ASPECTS = (4.5, 8.0, 15.0)
 _KERNEL_ERRORS = (0.1, 0.15)
-_MOMENT_WEIGHTS = (3.0, 0.5)
+_MOMENT_WEIGHTS = (3.0, 1.0)
+# Fewer samples than this would shrink long lobes to a third if their moments weighed less.
+_LEAST_LIGHT_MOMENTS = 6
 
 _HEADER = """\
 // Mixtures of Gaussians that `matched` places over a lobe, for its counts of samples and 40 aspects.
@@ -47,14 +49,14 @@ def rows_of(mixtures: Mixtures) -> Float64:
 def best_rows(samples: int, training: Training, seed: int, iterations: int, bar: "tqdm[None]") -> Float64:
     """Rows of the candidate that errs least in `training`."""
     best, kept = np.inf, None
-    for aspect, kernel_error, moment_weight in product(_START_ASPECTS, _KERNEL_ERRORS, _MOMENT_WEIGHTS):
+    moment_weights = _MOMENT_WEIGHTS if samples >= _LEAST_LIGHT_MOMENTS else _MOMENT_WEIGHTS[:1]
+    for aspect, kernel_error, moment_weight in product(_START_ASPECTS, _KERNEL_ERRORS, moment_weights):
         start = quantiser(samples, aspect, seed)
         rows = rows_of(fit(start, kernel_error, moment_weight, iterations)[1])
-        value = score(measure(training, samples, rows))
+        value = score(training, samples, rows)
         if value < best:
             best, kept = value, rows
             bar.write(f"n {samples}: {value:.4f} from {aspect}, eps {kernel_error}, lambda {moment_weight}")
-        bar.update()
     assert kept is not None
     return kept
 
@@ -73,8 +75,7 @@ def main() -> None:
     parser.add_argument("--seed", type=int, default=101, help="of starts, training environments and points")
     parser.add_argument("--iterations", type=int, default=1000, help="of L-BFGS, at most, per start")
     arguments = parser.parse_args()
-    candidates = len(_START_ASPECTS) * len(_KERNEL_ERRORS) * len(_MOMENT_WEIGHTS)
-    with tqdm(total=len(COUNTS) * candidates, unit="fit") as bar:
+    with tqdm(total=len(COUNTS), unit="count") as bar:
         bar.set_description("training maps")
         # The table makes the pyramid it is read from: here a first fit does.
         start = quantiser(PREFILTER_SAMPLES, _START_ASPECTS[0], arguments.seed)
@@ -84,6 +85,7 @@ def main() -> None:
         for samples in COUNTS:
             bar.set_description(f"{samples} samples")
             text.append(format_rows(best_rows(samples, training, arguments.seed, arguments.iterations, bar)))
+            bar.update()
     changed = "".join(
         f" --{name} {getattr(arguments, name)}"
         for name in ("seed", "iterations")

@@ -16,6 +16,8 @@ def names_in_stub(body):
             yield node.name
         elif isinstance(node, ast.AnnAssign) and isinstance(node.target, ast.Name):
             yield node.target.id
+        elif isinstance(node, ast.ImportFrom) and node.module == "burnish._samplers":
+            yield from (alias.asname for alias in node.names if alias.asname == alias.name)
 
 
 def public(names):
@@ -23,8 +25,12 @@ def public(names):
 
 
 def test_stub_and_extension_agree():
-    tree = ast.parse((REPOSITORY / "python/burnish/_core.pyi").read_text())
+    tree, samplers = (
+        ast.parse((REPOSITORY / "python/burnish" / name).read_text())
+        for name in ("_core.pyi", "_samplers.pyi")
+    )
     assert public(names_in_stub(tree.body)) == public(vars(_core))
-    for node in tree.body:
+    assert public(names_in_stub(samplers.body)) <= public(names_in_stub(tree.body))
+    for node in [*tree.body, *samplers.body]:
         if isinstance(node, ast.ClassDef):
             assert public(names_in_stub(node.body)) == public(vars(getattr(_core, node.name))), node.name

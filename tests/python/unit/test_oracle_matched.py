@@ -11,7 +11,7 @@ from burnish.oracle.cube_map import texel_directions
 from burnish.oracle.estimator import local_frame
 from burnish.oracle.frame import frame_from_tangent
 from burnish.oracle.kurt_lobe import KurtLobe, kurt_sample
-from burnish.oracle.lobe_map import cube_metric, lobe_map, principal_axes
+from burnish.oracle.lobe_map import lobe_map, principal_axes
 from burnish.oracle.matched import Matched, matched_lookups, read_matched, shade_matched
 from burnish.oracle.matched_table import (
     ASPECT_COUNT,
@@ -95,7 +95,7 @@ def test_centres_and_lookups_together_have_the_lobes_covariance(count):
     assert np.max(np.abs(across - 0.5)[short]) < 0.02
     assert np.max(np.abs(along - 0.5)[short]) < 0.02
     assert np.max(np.abs(mixed)[short]) < 0.05
-    assert np.all((across > 0.48) & (across < 1.5) & (along > 0.2) & (along < 1))
+    assert np.all((across > 0.48) & (across < 1.5) & (along > 0.1) & (along < 1.2))
 
 
 @pytest.mark.parametrize("count", COUNTS)
@@ -156,32 +156,15 @@ def test_principal_axes_are_those_of_the_singular_value_decomposition(rng):
     np.testing.assert_allclose(np.linalg.norm(long, axis=-1), a, rtol=1e-9)
 
 
-def test_the_cube_metric_keeps_areas_and_is_the_same_from_both_sides_of_an_edge(rng):
-    d = normalize(rng.normal(size=(300, 3)))
-    t, b = frame_from_tangent(d, rng.normal(size=(300, 3)))
-    metric = cube_metric(d, t, b, 1.0)
-    np.testing.assert_allclose(np.linalg.det(metric), 1, rtol=1e-9)
-    np.testing.assert_allclose(metric, np.swapaxes(metric, -1, -2))
-    v = rng.uniform(-0.9, 0.9, 20)
-    sides = [np.stack([np.full(20, 1 + e), v, np.full(20, 1 - e)], axis=-1) for e in (1e-7, -1e-7)]
-    axis = np.array([0.0, 1.0, 0.0])
-    frames = [frame_from_tangent(normalize(s), axis) for s in sides]
-    one, other = (cube_metric(normalize(s), *f, 1.0) for s, f in zip(sides, frames, strict=True))
-    np.testing.assert_allclose(one, other, atol=1e-5)
-
-
-@pytest.mark.parametrize("filter", ["sphere", "gauss6"])
 @pytest.mark.parametrize("name", LOBES)
-def test_constant_light_gives_the_albedo(name, filter, points):
+def test_constant_light_gives_the_albedo(name, points):
     n, t, o = points
     lobe = LOBES[name]
     albedo = blend_albedo(
         directional_albedo(local_frame(n, t, o, lobe.rotation).omega_o, lobe.roughness, lobe.alpha), lobe.r0
     )
     for samples in (2, 5, 14):
-        shaded = shade_matched(
-            read_matched(constant((1, 2, 3)), Matched(filter=filter)), n, t, o, lobe, samples
-        )
+        shaded = shade_matched(read_matched(constant((1, 2, 3)), Matched()), n, t, o, lobe, samples)
         np.testing.assert_allclose(shaded, np.array([1, 2, 3]) * albedo * np.asarray(lobe.weight), rtol=1e-9)
 
 
@@ -232,12 +215,11 @@ def test_swapped_roughness_in_a_frame_turned_by_90_degrees_changes_nothing(point
     np.testing.assert_allclose(other, one, rtol=1e-9)
 
 
-@pytest.mark.parametrize("filter", ["sphere", "gauss6"])
 @pytest.mark.parametrize("alpha", [0.0, 0.5, 1.0])
 @pytest.mark.parametrize("roughness", [1e-4, 1e-2, 1.0, (1.0, 1e-2), (1e-3, 0.1)])
-def test_finite_at_the_hard_views(roughness, alpha, filter, smooth):
+def test_finite_at_the_hard_views(roughness, alpha, smooth):
     views = [view(0), view(1e-7), view(89.99, 1.0), view(90), view(120, 0.3), [0, 0, -1.0], [0, 1, 1e-9]]
-    light_map = read_matched(smooth, Matched(filter=filter))
+    light_map = read_matched(smooth, Matched())
     for samples in (2, 5, 14):
         lobe = KurtLobe(roughness, (1, 0.5, 0.04), alpha)
         shaded = shade_matched(light_map, [0, 0, 1.0], [0, 0, 0.0], views, lobe, samples)
