@@ -19,6 +19,9 @@ compilation, noise stated). Errors count where objects are: relative RMSE of lin
 displayed picture (98th percentile at 1, clipped), FLIP, and the largest.
 
 With --journal an interrupted study goes on where it stopped when the same command is given again.
+
+With --paper, instead of scenes: the evaluation of the CGI 2014 paper on regular sampling, done again on its
+own setup, every statement with a verdict (some minutes; --quick for a first look).
 """
 
 STUDY_EXAMPLES = """\
@@ -29,6 +32,7 @@ examples:
   burnish study spheres --filter box gauss6 --journal long.jsonl --json rows.json --plot curves.png
   burnish study sphere --env spots --workers 2 --journal long.jsonl -o page.html
   burnish study sphere --env spots --scheduler tcp://host:8786 --json rows.json
+  burnish study --paper -o paper.html --json paper.json
 
 The page is one file that needs no other: tables, curves, a slider to compare pictures. Pages and plots need
 pip install 'burnish[study]', workers need pip install 'burnish[cluster]'.
@@ -39,6 +43,10 @@ SAMPLERS_HELP = (
     "regular:5,14,30 regular:14:published importance:14:mip_bias=1 "
     "(default: every sampler there is, at 5, 14 and 30 samples)"
 )
+
+
+DEFAULT_REPEATS = 5
+PAPER_REPEATS = 3
 
 
 def parse_roughness(text: str) -> tuple[float, float]:
@@ -65,7 +73,7 @@ def add_study_arguments(parser: argparse.ArgumentParser) -> None:
     from burnish._cli_arguments import SCENE_HELP, parse_size
 
     parser.description = STUDY_DESCRIPTION
-    parser.add_argument("scenes", metavar="SCENE", nargs="+", help=SCENE_HELP)
+    parser.add_argument("scenes", metavar="SCENE", nargs="*", help=SCENE_HELP)
     grid = parser.add_argument_group("what is drawn")
     grid.add_argument(
         "--env",
@@ -106,7 +114,12 @@ def add_study_arguments(parser: argparse.ArgumentParser) -> None:
         help="sampler that draws the truth; its standard error should be a tenth of the errors it judges; "
         "half of it takes four times as long (default: reference:0.005)",
     )
-    how.add_argument("--repeats", type=int, default=5, metavar="N", help="timed runs of each (default: 5)")
+    how.add_argument(
+        "--repeats",
+        type=int,
+        metavar="N",
+        help=f"timed runs of each (default: {DEFAULT_REPEATS}, of --paper {PAPER_REPEATS})",
+    )
     how.add_argument("--device", metavar="NAME", default="", help="part of a Vulkan device's name")
     how.add_argument(
         "--journal", metavar="FILE", help="keep finished rows here, and take up where it stopped"
@@ -119,6 +132,12 @@ def add_study_arguments(parser: argparse.ArgumentParser) -> None:
         metavar="N",
         help="measure in N processes of this machine; they disturb one another's times (default: none)",
     )
+
+    paper = parser.add_argument_group("the paper")
+    paper.add_argument(
+        "--paper", action="store_true", help="do the paper's evaluation again; takes no scenes, -o, --json"
+    )
+    paper.add_argument("--quick", action="store_true", help="with --paper: small maps, pictures and frames")
 
     out = parser.add_argument_group("what is written")
     out.add_argument("-o", "--output", metavar="FILE", help="the page, .html")
@@ -141,7 +160,7 @@ def _outputs(options: argparse.Namespace) -> list[str]:
     return [name for name in (options.output, options.json, options.csv, options.plot) if name]
 
 
-def _require_outputs(options: argparse.Namespace) -> None:
+def require_outputs(options: argparse.Namespace) -> None:
     """Find out before the work that a file could not be written, or a package is missing."""
     from burnish.study.plots import new_figure
 
@@ -194,7 +213,7 @@ def _measure(options: argparse.Namespace) -> "Study":
         options.camera,
         options.size,
         options.spp,
-        options.repeats,
+        DEFAULT_REPEATS if options.repeats is None else options.repeats,
         options.device,
         journal=options.journal,
         keep_pictures=bool(options.output),
@@ -227,7 +246,15 @@ def run_study(options: argparse.Namespace) -> int:
     """``burnish study``: 0 done, 130 interrupted; what was finished is written in both cases."""
     from burnish.study import StudyInterrupted
 
-    _require_outputs(options)
+    if options.paper:
+        from burnish._cli_paper import run_paper
+
+        return run_paper(options)
+    if options.quick:
+        raise ValueError("--quick: expected --paper beside it")
+    if not options.scenes:
+        raise ValueError("the following arguments are required: SCENE, or --paper")
+    require_outputs(options)
     try:
         _write(_measure(options), options)
     except StudyInterrupted as interruption:

@@ -188,13 +188,16 @@ def spots(
         )
     background = np.exp(waves)
     background /= background.mean(axis=(0, 1, 2), keepdims=True)
-    radiance = background
+    radiance = background.copy()
     for _ in range(count):
         center = _unit(generator.standard_normal(3), "center")
         radius = 0.5 * math.radians(generator.uniform(2.0, 10.0))
         level = math.exp(generator.uniform(math.log(contrast[0]), math.log(contrast[1])))
         tint = generator.uniform(0.7, 1.0, 3)
         color = level * tint / tint.mean()
-        cover = _disc_coverage(directions, center, radius, face_size)[..., None]
-        radiance = np.maximum(radiance, background + cover * (color - background))
+        # Only texels that the disc may touch: no texel is wider than 2/N, and there are millions of others.
+        near = directions @ center > math.cos(min(radius + 4.0 / face_size, math.pi))
+        cover = _disc_coverage(directions[near], center, radius, face_size)[..., None]
+        behind = background[near]
+        radiance[near] = np.maximum(radiance[near], behind + cover * (color - behind))
     return _finish(radiance, f"spots, seed {seed}")

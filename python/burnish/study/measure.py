@@ -175,7 +175,7 @@ def _row(
         "sampler": text,
         "method": sampler_to_text(sampler, with_count=False),
         "requested_samples": sampler_parameters(sampler).get("samples"),
-        "samples": _largest_count(shot.samples_used),
+        "samples": largest_count(shot.samples_used),
         "samples_used": shot.samples_used,
         # JSON knows no NaN: a black reference has no relative error.
         **{name: None if math.isnan(value or 0.0) else value for name, value in errors.as_dict().items()},
@@ -192,7 +192,7 @@ def _row(
     }
 
 
-def _largest_count(samples_used: str) -> int | None:
+def largest_count(samples_used: str) -> int | None:
     """Read the largest count out of a text such as "14, 13" or "19 (s1)"; None where there is none."""
     counts = [re.match(r"\s*(\d+)", part) for part in samples_used.split(",")]
     return max((int(count[1]) for count in counts if count), default=None)

@@ -1,22 +1,13 @@
 """One HTML page of a study that needs no other file: curves, tables, pictures to compare by a slider."""
 
-import base64
-import html
-import io
 from collections.abc import Sequence
 from datetime import datetime, timezone
-from importlib import resources
-from string import Template
-from typing import TYPE_CHECKING, Any
-
-import numpy as np
-from numpy.typing import NDArray
-from PIL import Image
+from typing import TYPE_CHECKING
 
 import burnish
-from burnish.study.differences import difference_figure, display_picture
+from burnish.study.differences import difference_figure
 from burnish.study.findings import list_findings
-from burnish.study.metrics import display_scale
+from burnish.study.html_parts import COMPARE_NOTE, comparison, escape, figure_uri, fill_page
 from burnish.study.pareto import pareto_front
 from burnish.study.plots import ERROR_LABELS, Kind, curves_figure
 from burnish.study.rows import Row, cell_title, format_value
@@ -47,10 +38,6 @@ COLUMNS = (
     ("runs", "runs", "timed runs, samplers taking turns"),
 )
 
-COMPARE_NOTE = (
-    "Drag across the picture, or use the arrow keys. Both sides are shown with the 98th percentile of the "
-    "reference at white."
-)
 DIFFER_NOTE = "Difference from the reference in displayed luminance: red is too bright, blue too dark."
 
 CURVE_DPI = 110
@@ -72,15 +59,22 @@ def make_page(study: "Study") -> str:
     """
     if not study.rows:
         raise ValueError("page: expected a study with at least one row, got none")
-    template = Template(resources.files("burnish.study").joinpath("page.html").read_text(encoding="utf-8"))
     names = {row["sampler"]: row for row in study.rows}
     pictures = [cell for cell in study.pictures if cell.pictures]
-    return template.substitute(
+    return fill_page(
+        "page.html",
         facts=_facts(study),
-        findings="".join(f"<li>{_escape(line)}</li>" for line in list_findings(study)),
+        findings="".join(f"<li>{escape(line)}</li>" for line in list_findings(study)),
         width="wide" if len(study.cells()) > 1 else "narrow",
         curves="".join(_curve(study, *curve) for curve in CURVES),
-        comparisons=_section("Compare", COMPARE_NOTE, [_comparison(*pair) for pair in enumerate(pictures)]),
+        comparisons=_section(
+            "Compare",
+            COMPARE_NOTE,
+            [
+                comparison(f"compare-{index}", cell_title(cell.cell), cell)
+                for index, cell in enumerate(pictures)
+            ],
+        ),
         differences=_section(
             "Where they differ", DIFFER_NOTE, [_difference(cell, names) for cell in pictures]
         ),
@@ -91,10 +85,6 @@ def make_page(study: "Study") -> str:
 def _section(title: str, note: str, parts: Sequence[str]) -> str:
     """Put parts under a heading; nothing where there are none."""
     return f'<h2>{title}</h2><p class="note">{note}</p>{"".join(parts)}' if parts else ""
-
-
-def _escape(value: Any) -> str:
-    return html.escape(str(value))
 
 
 def _facts(study: "Study") -> str:
@@ -111,80 +101,36 @@ def _facts(study: "Study") -> str:
     }
     if study.command:
         facts["Command"] = study.command
-    return "".join(f"<dt>{_escape(name)}</dt><dd>{_escape(value)}</dd>" for name, value in facts.items())
+    return "".join(f"<dt>{escape(name)}</dt><dd>{escape(value)}</dd>" for name, value in facts.items())
 
 
 def _all_values(rows: Sequence[Row], key: str) -> str:
     return ", ".join(dict.fromkeys(str(row[key]) for row in rows))
 
 
-def _data_uri(data: bytes, kind: str = "png") -> str:
-    return f"data:image/{kind};base64,{base64.b64encode(data).decode('ascii')}"
-
-
-def _figure_uri(figure: Any, dpi: int) -> str:
-    buffer = io.BytesIO()
-    figure.savefig(buffer, format="png", dpi=dpi)
-    return _data_uri(buffer.getvalue())
-
-
-def _picture_uri(shown: NDArray[np.float32]) -> str:
-    buffer = io.BytesIO()
-    Image.fromarray(np.rint(shown * 255).astype(np.uint8)).save(buffer, format="PNG", optimize=True)
-    return _data_uri(buffer.getvalue())
-
-
 def _curve(study: "Study", kind: Kind, error: str, time: str, title: str) -> str:
-    uri = _figure_uri(curves_figure(study.cells(), kind, error, time), CURVE_DPI)
-    name = _escape(title)
+    uri = figure_uri(curves_figure(study.cells(), kind, error, time), CURVE_DPI)
+    name = escape(title)
     return f'<figure><figcaption>{name}</figcaption><img src="{uri}" alt="{name}"></figure>'
 
 
-def _comparison(index: int, cell: CellPictures) -> str:
-    """Two pictures over one another, each chosen from a list, and a slider between them."""
-    truth, covered = cell.reference.color, cell.reference.covered
-    scale = display_scale(truth[covered])
-    pictures = {"reference": truth, **cell.pictures}
-    uris = {_escape(name): _picture_uri(display_picture(color, scale)) for name, color in pictures.items()}
-    images = "".join(f'<img data-name="{name}" src="{uri}" alt="{name}">' for name, uri in uris.items())
-    left = next(iter(cell.pictures), "reference")
-    height, width = truth.shape[:2]
-    return (
-        f'<section class="compare" id="compare-{index}" style="--w:{width};--h:{height}">'
-        f"<h3>{_escape(cell_title(cell.cell))}</h3>"
-        f'<div class="choice"><label>left {_choices(pictures, left)}</label>'
-        f"<label>right {_choices(pictures, 'reference')}</label></div>"
-        f'<div class="stage"><img class="right" alt="right"><img class="left" alt="left">'
-        '<span class="bar"></span><input type="range" min="0" max="100" value="50" step="0.1" '
-        'aria-label="where the left picture ends"></div>'
-        f'<div class="store" hidden>{images}</div></section>'
-    )
-
-
-def _choices(names: Any, chosen: str) -> str:
-    options = "".join(
-        f"<option{' selected' if name == chosen else ''}>{_escape(name)}</option>" for name in names
-    )
-    return f"<select>{options}</select>"
-
-
 def _difference(cell: CellPictures, names: dict[str, Row]) -> str:
-    uri = _figure_uri(difference_figure([cell], names), DIFFERENCE_DPI)
-    return f'<figure><img src="{uri}" alt="differences, {_escape(cell_title(cell.cell))}"></figure>'
+    uri = figure_uri(difference_figure([cell], names), DIFFERENCE_DPI)
+    return f'<figure><img src="{uri}" alt="differences, {escape(cell_title(cell.cell))}"></figure>'
 
 
 def _table(cell: Sequence[Row], study: "Study") -> str:
     """One table for each cell; rows of the Pareto front are marked."""
-    head = "".join(f'<th title="{_escape(meaning)}">{_escape(name)}</th>' for _, name, meaning in COLUMNS)
+    head = "".join(f'<th title="{escape(meaning)}">{escape(name)}</th>' for _, name, meaning in COLUMNS)
     front = {row["key"] for row in pareto_front(cell, "relative_rmse", "frame_ms")}
     lines = []
     for row in cell:
         passes = "; ".join(f"{name} {format_value(time)} ms" for name, time in row["passes_ms"].items())
-        cells = "".join(f"<td>{_escape(format_value(row.get(key)))}</td>" for key, _, _ in COLUMNS)
+        cells = "".join(f"<td>{escape(format_value(row.get(key)))}</td>" for key, _, _ in COLUMNS)
         mark = ' class="front"' if row["key"] in front else ""
-        lines.append(f'<tr{mark} title="{_escape(passes)}">{cells}</tr>')
+        lines.append(f'<tr{mark} title="{escape(passes)}">{cells}</tr>')
     return (
-        f"<h3>{_escape(cell_title(cell[0]))}</h3>"
+        f"<h3>{escape(cell_title(cell[0]))}</h3>"
         f'<div class="scroll"><table><thead><tr>{head}</tr></thead>'
         f"<tbody>{''.join(lines)}</tbody></table></div>"
     )
