@@ -1,4 +1,4 @@
-"""What ``scripts/demo`` runs: glossy objects in a real place, the price of the picture, and its error."""
+"""What ``scripts/demo`` runs: glossy objects in a real place, what the picture cost, and how wrong it is."""
 
 import argparse
 import sys
@@ -8,7 +8,19 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from burnish import Camera, Environment, Frame, Material, Mesh, Reference, Regular, Scene, builtin, render
+from burnish import (
+    Camera,
+    Environment,
+    Frame,
+    Matched,
+    Material,
+    Mesh,
+    Reference,
+    Scene,
+    builtin,
+    render,
+    study,
+)
 from burnish._progress import progress_bar
 from burnish.builtin import COPPER, GOLD, STEEL, lacquer, metal
 
@@ -18,6 +30,16 @@ WORLD = Path("/usr/share/blender/datafiles/studiolights/world/courtyard.exr")
 WORLD_TURN_DEGREES = 70.0
 TEAL = (0.3, 0.6, 0.58)
 COMPARED_SIZE = (135, 240)
+COMPARED_SAMPLERS = (
+    "matched:5",
+    "matched:14",
+    "matched:30",
+    "regular:14",
+    "regular:30",
+    "importance:14:fibonacci",
+    "importance:30:fibonacci",
+    "prefiltered",
+)
 # A fifth of the error that it judges, reached in some ten seconds on two cores.
 REFERENCE_STANDARD_ERROR = 0.02
 
@@ -59,7 +81,7 @@ def make_scene() -> Scene:
     return scene
 
 
-def draw(scene: Scene, size: tuple[int, int], sampler: Regular | Reference, spp: int, what: str) -> Frame:
+def draw(scene: Scene, size: tuple[int, int], sampler: Matched | Reference, spp: int, what: str) -> Frame:
     """Render with a progress bar."""
     with progress_bar(what) as advance:
         return render(scene, size=size, sampler=sampler, spp=spp, progress=advance)
@@ -74,7 +96,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
         None: those of the process.
     """
     parser = argparse.ArgumentParser(prog="burnish.demo", description=__doc__)
-    parser.add_argument("--out", type=Path, default=Path("out"), help="folder for demo.exr and demo.png")
+    parser.add_argument(
+        "--out", type=Path, default=Path("out"), help="folder for demo.exr, demo.png and demo-study.html"
+    )
     parser.add_argument("--env", type=Path, default=WORLD, help=f"environment (default: {WORLD})")
     parser.add_argument("--spp", type=int, default=4, help="jittered frames to accumulate (default: 4)")
     options = parser.parse_args(arguments)
@@ -82,19 +106,24 @@ def main(arguments: Sequence[str] | None = None) -> int:
     options.out.mkdir(parents=True, exist_ok=True)
     scene = make_scene()
     scene.environment = make_environment(options.env)
-    frame = draw(scene, (540, 960), Regular(samples=14), options.spp, "rendering")
+    frame = draw(scene, (540, 960), Matched(samples=14), options.spp, "rendering")
     for name in ("demo.exr", "demo.png"):
         frame.save(options.out / name)
         print(f"wrote {options.out / name}")
     print(f"\n{frame.report}\n")
 
     height, width = COMPARED_SIZE
-    few = draw(scene, COMPARED_SIZE, Regular(samples=14), 1, "14 samples, small")
     truth = draw(scene, COMPARED_SIZE, Reference(REFERENCE_STANDARD_ERROR), 1, "reference, small")
+    compared = study.accuracy(scene, COMPARED_SAMPLERS, reference=truth, size=COMPARED_SIZE, repeats=3)
     print(
-        f"error of 14 samples against the reference, both rendered at {width} x {height} and 1 spp: "
-        f"{few.error(truth):.4f} (relative RMSE of linear radiance, where objects are); "
-        f"the reference's own standard error is {truth.report.standard_error:.4f}"
+        f"every sampler against the reference at {width} x {height}, 1 spp, where objects are; "
+        f"the reference's own standard error is {truth.report.standard_error:.4f}:\n"
+    )
+    print(compared.format_table())
+    page = options.out / "demo-study.html"
+    compared.save_html(page)
+    print(
+        f"\nwrote {page}: the same with pictures to compare, curves and false colours; open it in a browser"
     )
     return 0
 
