@@ -41,7 +41,7 @@ def test_samplers_are_read():
     ["", "regulr:14", "regular:many", "regular:14:exactly", "importance:5:sobol", "reference:x", "a:b:c:d"],
 )
 def test_other_samplers_are_refused(text):
-    with pytest.raises(ValueError, match="--sampler: expected regular"):
+    with pytest.raises(ValueError, match="--sampler: expected matched"):
         parse_sampler(text)
 
 
@@ -63,7 +63,7 @@ def test_other_samplers_are_refused(text):
             "--env: expected a file or one of studio, sky, spots, uniform",
         ),
         (["render", "sphere", "--env", "absent.hdr"], "absent.hdr"),
-        (["render", "sphere", "--sampler", "magic:3"], "--sampler: expected regular"),
+        (["render", "sphere", "--sampler", "magic:3"], "--sampler: expected matched"),
         (["render", "sphere", "-o", "picture.jpg"], "--output: expected a name ending in .exr or .png"),
         (["render", "sphere", "-o", "absent/a.png"], "expected an existing folder, got absent"),
         (["render", "sphere", "--camera", "7"], "--camera: expected one of"),

@@ -54,7 +54,7 @@ def test_counts_are_written_out():
 @pytest.mark.parametrize(
     ("text", "message"),
     [
-        ("regulr:14", "expected regular"),
+        ("regulr:14", "expected matched"),
         ("regular:14:circles=3", "regular:14:circles=3: expected one of .*samples.*, got 'circles'"),
         ("regular:14:threshold=much", "regular:14:threshold=much: "),
         ("regular:14:threshold=2", "threshold"),
