@@ -276,8 +276,10 @@ void bind_render(py::module_& m) {
         py::arg("filter"),
         "List of (roughness, (6, n, n, 3) float32), finest first, as the sampler Prefiltered looks them up.");
     m.def("environment_spherical", &spherical_levels, py::arg("device"), py::arg("environment"),
-          py::arg("filter"), "List of (6, n, n, 3) float32, finest first, as the sampler Matched looks them up.");
-    m.def("prefilter_times", &prefilter_times, py::arg("device"), py::arg("environment"), py::arg("filter"), py::arg("is_spherical") = false,
+          py::arg("filter"),
+          "List of (6, n, n, 3) float32, finest first, as the sampler Matched looks them up.");
+    m.def("prefilter_times", &prefilter_times, py::arg("device"), py::arg("environment"), py::arg("filter"),
+          py::arg("is_spherical") = false,
           "List of (pass, milliseconds) of making one prefiltered map, for benchmarks.");
     m.def("pyramid_times", &pyramid_times, py::arg("device"), py::arg("environment"), py::arg("filter"),
           "List of (pass, milliseconds) of making one map's pyramid, for benchmarks.");
