@@ -101,7 +101,8 @@ TEST(Render, ReportNamesThePassesThatThePlanNamed) {
     const Scene scene = furnace_sphere(0.15f);
     RenderSettings settings = small_settings();
     settings.plan.spp = 2;
-    const Plan plan = make_plan(scene, settings.plan);
+    SunCache suns;
+    const Plan plan = make_plan(scene, settings.plan, suns);
     const Frame frame = renderer().render(scene, scene.default_camera(), settings);
     std::set<std::string> ran = pass_names(frame.report);
     for (const PassLine& line : plan.passes) {
