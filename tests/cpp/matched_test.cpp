@@ -1,0 +1,96 @@
+// The matched sampler's tables, and suns taken out of maps.
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "burnish/sampling/matched_table.h"
+#include "burnish/sampling/matched_view_table.h"
+#include "burnish/sampling/prefilter_table.h"
+#include "burnish/sampling/sampler.h"
+#include "burnish/sampling/sun_split.h"
+#include "shared/constants.h"
+
+namespace burnish {
+namespace {
+
+TEST(MatchedTable, WeightsOfEveryRowSumToOne) {
+    for (const uint32_t count : MATCHED_COUNTS) {
+        const std::vector<glm::vec4> rows = matched_mixtures(count);
+        const uint32_t half = (count + 1) / 2;
+        ASSERT_EQ(rows.size(), size_t(shared::MATCHED_ROWS) * half);
+        for (uint32_t row = 0; row < shared::MATCHED_ROWS; ++row) {
+            double sum = 0.0;
+            for (uint32_t k = 0; k < half; ++k)
+                sum += (count % 2 && k == 0 ? 1.0 : 2.0) * double(rows[row * half + k].w);
+            EXPECT_NEAR(sum, 1.0, 5e-5) << count << " samples, row " << row;
+        }
+    }
+}
+
+TEST(MatchedTable, RowsAreEvenInTheLogOfTheAspect) {
+    EXPECT_EQ(matched_row(1.0), 0u);
+    EXPECT_EQ(matched_row(34.0), shared::MATCHED_ROWS - 1);
+    EXPECT_EQ(matched_row(1000.0), shared::MATCHED_ROWS - 1);
+    EXPECT_NEAR(matched_row(std::sqrt(34.0)), (shared::MATCHED_ROWS - 1) / 2.0, 1.0);
+}
+
+TEST(MatchedViewTable, AViewAlongTheNormalReflectsAroundIt) {
+    const MatchedLobe lobe{8, 0.2f, 0.5f, 0.04f, 0.96f, true, 64};
+    const std::vector<glm::vec4> table = build_matched_view_table(lobe);
+    const uint32_t entries = view_row_entries(lobe);
+    ASSERT_EQ(entries, 10u);
+    ASSERT_EQ(table.size(), size_t(shared::MATCHED_ROWS) * entries);
+    glm::vec2 mean(0.0f);
+    float weights = 0.0f;
+    const glm::vec4* last = &table[(shared::MATCHED_ROWS - 1) * entries];
+    for (uint32_t k = 0; k < 8; ++k) {
+        mean += last[k].z * glm::vec2(last[k]);
+        weights += last[k].z;
+        EXPECT_GT(last[k].z, 0.0f);
+        EXPECT_GE(last[k].w, 0.0f);
+    }
+    EXPECT_NEAR(glm::length(mean), 0.0f, 1e-4f * weights);
+}
+
+TEST(MatchedViewTable, LevelsBelowTheFirstShareItsVariance) {
+    const double first = 16.0 * 0.85 / (256.0 * 256.0);
+    EXPECT_FLOAT_EQ(spherical_level(first, 256), 1.0f);
+    EXPECT_FLOAT_EQ(spherical_level(first / 2.0, 256), 0.5f);
+    EXPECT_FLOAT_EQ(spherical_level(4.0 * first, 256), 2.0f);
+}
+
+std::vector<float> map_of(uint32_t size, float radiance) {
+    return std::vector<float>(size_t(18) * size * size, radiance);
+}
+
+TEST(SunSplit, TakesOutWhatItPutIn) {
+    const uint32_t size = 64;
+    std::vector<float> radiance = map_of(size, 0.5f);
+    const size_t texel = (4 * size + 20) * size + 40; // face +z
+    for (int c = 0; c < 3; ++c)
+        radiance[3 * texel + c] = 10000.5f;
+    const SunSplit split = split_suns({size, radiance});
+    ASSERT_EQ(split.suns.size(), 1u);
+    EXPECT_EQ(split.radiance, map_of(size, 0.5f));
+    const double solid_angle = texel_solid_angles(size)[20 * size + 40];
+    EXPECT_NEAR(split.suns[0].flux.x, 10000.0 * solid_angle, 1e-3 * solid_angle);
+    const double u = 81.0 / size - 1.0, v = 41.0 / size - 1.0;
+    const glm::dvec3 expected = glm::normalize(glm::dvec3(u, -v, 1.0));
+    EXPECT_NEAR(glm::dot(split.suns[0].direction, expected), 1.0, 1e-9);
+}
+
+TEST(SunSplit, LeavesWideAndFaintLightsAlone) {
+    const uint32_t size = 64;
+    std::vector<float> wide = map_of(size, 0.5f), faint = map_of(size, 0.5f);
+    for (uint32_t row = 10; row < 30; ++row)
+        for (uint32_t column = 10; column < 30; ++column)
+            wide[3 * ((2 * size + row) * size + column)] = 20000.0f;
+    faint[3 * 100] = 40.0f;
+    EXPECT_TRUE(split_suns({size, wide}).suns.empty());
+    EXPECT_TRUE(split_suns({size, faint}).suns.empty());
+    EXPECT_TRUE(split_suns({size, map_of(size, 0.0f)}).suns.empty());
+    EXPECT_TRUE(split_suns({1, map_of(1, 1.0f)}).suns.empty());
+}
+
+} // namespace
+} // namespace burnish
