@@ -9,6 +9,7 @@ from collections.abc import Callable
 from datetime import date
 from pathlib import Path
 
+from bench_samplers import bench_maps, bench_samplers
 from bench_scenes import effect_scenes
 from tqdm import tqdm
 
@@ -155,6 +156,8 @@ def main() -> None:
         "driver": device.driver,
         "date": str(date.today()),
         "shading": bench_shading(device, options.repeats),
+        "samplers": bench_samplers(device, frame_measure, alternate, options.repeats),
+        "maps": bench_maps(device, alternate, max(3, options.repeats // 2)),
         "pyramids": bench_pyramids(device, options.repeats),
         "effects": bench_effects(device, max(3, options.repeats // 2)),
     }
