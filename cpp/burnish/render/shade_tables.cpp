@@ -32,6 +32,8 @@ bool needs_albedo(const Sampler& sampler) {
            std::holds_alternative<Matched>(sampler) || std::holds_alternative<Prefiltered>(sampler);
 }
 
+constexpr size_t MOST_VIEW_TABLES = 64; ///< up to 1.3 MB each
+
 float mean(glm::vec3 v) {
     return (v.r + v.g + v.b) / 3.0f;
 }
@@ -176,7 +178,10 @@ const std::vector<glm::vec4>& TableCache::mixtures(uint32_t count) {
 
 const std::vector<glm::vec4>& TableCache::view_table(const MatchedLobe& lobe) {
     auto found = view_tables_.find(lobe);
-    if (found == view_tables_.end()) found = view_tables_.emplace(lobe, build_matched_view_table(lobe)).first;
+    if (found != view_tables_.end()) return found->second;
+    // A material that changes with every frame must not fill the memory.
+    if (view_tables_.size() >= MOST_VIEW_TABLES) view_tables_.clear();
+    found = view_tables_.emplace(lobe, build_matched_view_table(lobe)).first;
     return found->second;
 }
 
