@@ -19,6 +19,7 @@ except PackageNotFoundError:  # used from a source tree that is not installed
     __version__ = "0+unknown"
 
 __all__ = [
+    "Advice",
     "Camera",
     "Device",
     "DoctorReport",
@@ -38,6 +39,7 @@ __all__ = [
     "Scene",
     "VulkanError",
     "__version__",
+    "advise",
     "doctor",
     "images",
     "list_devices",
@@ -73,6 +75,7 @@ if _load_failure() is None:
 
     _attach()
     from burnish import study  # measures the names above, so it comes after them
+    from burnish.advice import Advice, advise  # rests on studies
 
 
 def __getattr__(name: str) -> object:

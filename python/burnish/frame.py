@@ -1,5 +1,6 @@
 """One rendered picture with its report."""
 
+import math
 import os
 from dataclasses import dataclass
 from pathlib import Path
@@ -50,6 +51,10 @@ class Frame:
         World frame, unit length; 0 where no object is.
     report : Report
         Milliseconds per pass, effects and reasons, warnings.
+    error_estimate : (h, w) float32 or None
+        Where it was asked for: estimated error of every pixel, absolute linear radiance, root mean square
+        over the three channels; 0 where no object is. Its own root mean square over the pixels with objects,
+        over that of `color` there, predicts the relative RMSE: `estimated_error`.
     """
 
     color: FloatArray
@@ -57,6 +62,7 @@ class Frame:
     depth: FloatArray
     normal: FloatArray
     report: Report
+    error_estimate: FloatArray | None = None
 
     def __repr__(self) -> str:
         height, width = self.color.shape[:2]
@@ -69,8 +75,8 @@ class Frame:
         ----------
         path : path
             ``.exr``: float32 linear radiance and coverage (R, G, B, A), depth (Z), normals (N.X, N.Y, N.Z),
-            and the report as JSON in the header attribute ``burnish``.
-            ``.png``: 8-bit sRGB, clipped, without alpha.
+            the error estimate where there is one (error.Y), and the report as JSON in the header attribute
+            ``burnish``. ``.png``: 8-bit sRGB, clipped, without alpha.
         exposure : float
             Stops, for ``.png`` only: radiance is multiplied by 2**exposure. OpenEXR files keep the radiance.
 
@@ -87,6 +93,8 @@ class Frame:
         if suffix == ".exr":
             channels = {"RGB": self.color, "A": self.alpha, "Z": self.depth}
             channels |= {f"N.{axis}": self.normal[..., i] for i, axis in enumerate("XYZ")}
+            if self.error_estimate is not None:
+                channels["error.Y"] = self.error_estimate
             images.write_exr(path, channels, metadata={"burnish": self.report.to_json(indent=None)})
         elif suffix == ".png":
             images.write_png(path, self.color, exposure=exposure)
@@ -114,3 +122,25 @@ class Frame:
             raise ValueError(f"reference: expected a frame of shape {expected}, got {got}")
         covered = reference.alpha > 0
         return relative_rmse(self.color[covered], reference.color[covered])
+
+    def estimated_error(self) -> float:
+        """Predict the relative RMSE where objects are from `error_estimate`, without a reference.
+
+        Returns
+        -------
+        error : float
+            As `error` would measure it, roughly; NaN where no object is lit.
+
+        Raises
+        ------
+        ValueError
+            If the frame was rendered without ``error_estimate=True``.
+        """
+        if self.error_estimate is None:
+            raise ValueError("error_estimate: expected a frame rendered with error_estimate=True, got None")
+        covered = self.alpha > 0
+        energy = float(np.sum(np.square(self.color[covered], dtype=np.float64)))
+        if energy == 0.0:
+            return float("nan")
+        square = 3.0 * float(np.sum(np.square(self.error_estimate[covered], dtype=np.float64)))
+        return math.sqrt(square / energy)

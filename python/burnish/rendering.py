@@ -1,5 +1,6 @@
 """Frames and shaded points: arguments are checked here, the work is the extension's."""
 
+import warnings
 from collections.abc import Callable
 from typing import Any, Literal, TypeAlias
 
@@ -14,6 +15,7 @@ from burnish.report import Report
 Sampler: TypeAlias = _core.Regular | _core.Importance | _core.Matched | _core.Prefiltered | _core.Reference
 Filter: TypeAlias = Literal["box", "gauss4", "gauss6"]
 FloatArray: TypeAlias = NDArray[np.float32]
+Progress: TypeAlias = Callable[[float, str], None]
 
 FILTERS = ("box", "gauss4", "gauss6")
 LARGEST_EDGE_PX = 16384
@@ -98,7 +100,8 @@ def shade(
     return _core.shade(device or default_device(), env, material, sampler, normals, tangents, views, filter)
 
 
-def _require_size(size: tuple[int, int]) -> tuple[int, int]:
+def require_size(size: tuple[int, int]) -> tuple[int, int]:
+    """Raise ValueError unless it is (height, width) within what is rendered; give it as two integers."""
     try:
         height, width = (int(edge) for edge in size)
         fits = (height, width) == tuple(size)
@@ -122,7 +125,10 @@ def render(
     device: _core.Device | None = None,
     spp: int = 1,
     filter: Filter = "gauss6",
-    progress: Callable[[float, str], None] | None = None,
+    progress: Progress | None = None,
+    target_error: float | None = None,
+    verify: bool = False,
+    error_estimate: bool = False,
 ) -> Frame:
     """Render one frame.
 
@@ -144,11 +150,27 @@ def render(
         Reduction filter of the environment's pyramid.
     progress : callable or None
         Called with the share done, 0..1, and the step's name; an exception that it raises stops the frame.
+        With a target the shares of the advice come first.
+    target_error : float or None
+        Relative RMSE of linear radiance where objects are: the cheapest sampler and count that are predicted
+        to meet it are taken, as `burnish.advise` finds them, and ``frame.report.prediction`` says which,
+        why, and at what price. Then `sampler` must be None.
+    verify : bool
+        Also measure the error that the chosen sampler really reaches, against a reference on a picture of
+        reduced size; it is in the prediction. Only with a target.
+    error_estimate : bool
+        Also estimate the error of every pixel, without a reference: ``frame.error_estimate``. It takes a
+        second frame of fewer samples.
 
     Returns
     -------
     frame : Frame
         Linear radiance, coverage, depth and normals, and the report that prices them.
+
+    Warns
+    -----
+    RuntimeWarning
+        If no sampler is predicted to meet the target; the closest is taken.
 
     Raises
     ------
@@ -158,14 +180,39 @@ def render(
         If no device can do it.
     """
     require_filter(filter)
-    height, width = _require_size(size)
+    height, width = require_size(size)
     _require_spp(spp)
-    sampler = _core.Regular() if sampler is None else sampler
+    if target_error is not None and sampler is not None:
+        raise ValueError(f"sampler: expected None beside a target_error, got {sampler!r}")
+    if verify and target_error is None:
+        raise ValueError("verify: expected a target_error beside it, got None")
     if camera is None and scene.cameras:
         camera = scene.cameras[0]
     device = device or default_device()
+    prediction = None
+    if target_error is not None:
+        from burnish.advice import advise
+
+        advice = advise(
+            scene, target_error, (height, width), camera, filter, device, verify=verify, progress=progress
+        )
+        sampler, prediction = advice.sampler, advice.to_dict()
+        if advice.warning is not None:
+            warnings.warn(advice.warning, RuntimeWarning, stacklevel=2)
+    sampler = _core.Regular() if sampler is None else sampler
+    if error_estimate:
+        from burnish.advice.error_estimate import companion
+
+        other = companion(sampler)  # refuses a sampler that has none before any work is done
     data = _core.render(device, scene, camera, height, width, sampler, int(spp), filter, progress)
-    return Frame(data.color, data.alpha, data.depth, data.normal, Report(data.report))
+    report = dict(data.report) | ({"prediction": prediction} if prediction else {})
+    frame = Frame(data.color, data.alpha, data.depth, data.normal, Report(report))
+    if error_estimate:
+        from burnish.advice.error_estimate import estimate_errors
+
+        fewer = _core.render(device, scene, camera, height, width, other, int(spp), filter, None)
+        frame.error_estimate = estimate_errors(sampler, frame.color, fewer.color, frame.alpha)
+    return frame
 
 
 def plan(

@@ -31,7 +31,8 @@ class Report:
     ----------
     data : mapping
         As the renderer fills it: version, device, size, spp, filter, sampler, passes, compile_ms, wall_ms,
-        effects, classes, non_finite, standard_error, warnings, ignored_extensions.
+        effects, classes, non_finite, standard_error, warnings, ignored_extensions; prediction where an error
+        was asked for.
     """
 
     def __init__(self, data: Mapping[str, Any]) -> None:
@@ -104,6 +105,12 @@ class Report:
         return list(self._data.get("ignored_extensions", []))
 
     @property
+    def prediction(self) -> dict[str, Any] | None:
+        """What `burnish.advise` predicted for a target error, as ``Advice.to_dict`` gives it; else None."""
+        prediction = self._data.get("prediction")
+        return None if prediction is None else dict(prediction)
+
+    @property
     def total_ms(self) -> float:
         """Sum over the passes, GPU time."""
         return float(sum(entry["milliseconds"] for entry in self.passes))
@@ -143,7 +150,13 @@ class Report:
         return f"Report({width}x{height}, {len(self.passes)} passes, {self.total_ms:.1f} ms)"
 
     def __str__(self) -> str:
-        blocks = [self._heading(), self._price_list(), self._effect_list(), self._notes()]
+        blocks = [
+            self._heading(),
+            self._prediction_list(),
+            self._price_list(),
+            self._effect_list(),
+            self._notes(),
+        ]
         return "\n\n".join("\n".join(block) for block in blocks if block)
 
     def _heading(self) -> list[str]:
@@ -155,6 +168,20 @@ class Report:
             picture += f", samples used: {self.samples_used}"
         where = f"on {device.get('name', 'an unknown device')}, driver {device.get('driver', 'unknown')}"
         return [picture, where]
+
+    def _prediction_list(self) -> list[str]:
+        given = self.prediction
+        if given is None:
+            return []
+        how = "measured on a small picture" if given["is_probed"] else "by the model"
+        lines = [
+            f"target error {100 * given['target_error']:.3g} %: {given['sampler']}, "
+            f"predicted {100 * given['predicted_error']:.3g} % ({how}), "
+            f"{_milliseconds(given['predicted_ms'])} ms",
+        ]
+        if given["error_reached"] is not None:
+            lines.append(f"error really reached: {100 * given['error_reached']:.3g} %")
+        return [*lines, f"  the advice took {_milliseconds(given['advice_ms'])} ms"]
 
     def _price_list(self) -> list[str]:
         total = self.total_ms

@@ -1,5 +1,6 @@
 """Every public name says what it is, and every parameter is mentioned."""
 
+import dataclasses
 import inspect
 import operator
 import re
@@ -13,8 +14,11 @@ DIRECT_BASES = {"FileError", "VulkanError"}
 
 
 def members(owner):
-    """Public methods and properties that a class defines itself."""
-    return {name: value for name, value in vars(owner).items() if not name.startswith("_")}
+    """Public methods and properties that a class defines itself; the default of a field is neither."""
+    fields = {field.name for field in dataclasses.fields(owner)} if dataclasses.is_dataclass(owner) else set()
+    return {
+        name: value for name, value in vars(owner).items() if not name.startswith("_") and name not in fields
+    }
 
 
 def public_things():

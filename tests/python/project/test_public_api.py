@@ -37,10 +37,19 @@ def test_render_takes_the_documented_arguments():
         "spp",
         "filter",
         "progress",
+        "target_error",
+        "verify",
+        "error_estimate",
     ]
     assert defaults(burnish.render)["size"] == (540, 960)
     assert defaults(burnish.render)["filter"] == "gauss6"
     assert defaults(burnish.render)["spp"] == 1
+    assert defaults(burnish.render)["target_error"] is None
+
+
+def test_advise_takes_the_documented_arguments():
+    assert names(burnish.advise)[:3] == ["scene", "target_error", "size"]
+    assert defaults(burnish.advise)["target_error"] == pytest.approx(0.02)
 
 
 def test_shade_takes_the_documented_arguments():
