@@ -4,6 +4,7 @@ import argparse
 from typing import TYPE_CHECKING, NoReturn
 
 from burnish import __version__
+from burnish._cli_advise import ADVISE_EXAMPLES, ADVISE_HELP, TARGET_HELP, add_advise_arguments, parse_target
 from burnish._cli_study import STUDY_EXAMPLES, STUDY_HELP, add_study_arguments
 
 if TYPE_CHECKING:
@@ -14,6 +15,7 @@ examples:
   burnish render spheres -o spheres.png
   burnish render model.glb --env world.exr --size 1080x1920 --spp 4 -o out.exr -o out.png
   burnish render model.glb --env sky --rotate-env 90 --sampler importance:30:fibonacci -o out.png
+  burnish render spheres --env sky --target-error 0.02 --verify --error-estimate -o out.exr
   burnish render shaderball --sampler regular:30 --compare --report out.json -o out.exr
 """
 EXPLAIN_EXAMPLES = """\
@@ -26,10 +28,11 @@ examples:
   burnish doctor
   burnish doctor --device llvmpipe
 """
+DEFAULT_SAMPLER = "regular:14"
 SAMPLER_HELP = (
     "matched[:COUNT], regular[:COUNT[:published]], importance[:COUNT[:hammersley|fibonacci]], prefiltered "
     "or reference[:STANDARD_ERROR] "
-    "(default: regular:14)"
+    f"(default: {DEFAULT_SAMPLER})"
 )
 SCENE_HELP = "a .gltf or .glb file, or a built-in scene: sphere, spheres, plane, shaderball"
 
@@ -79,7 +82,7 @@ def parse_sampler(text: str) -> "Sampler":
     raise ValueError(f"--sampler: expected {SAMPLER_HELP}, got {text!r}")
 
 
-def _add_scene_arguments(parser: argparse.ArgumentParser) -> None:
+def _add_scene_arguments(parser: argparse.ArgumentParser, has_sampler: bool = True) -> None:
     parser.add_argument("scene", metavar="SCENE", help=SCENE_HELP)
     parser.add_argument(
         "--env",
@@ -87,8 +90,11 @@ def _add_scene_arguments(parser: argparse.ArgumentParser) -> None:
         default="studio",
         help="environment: an .hdr or .exr file, or built-in: studio, sky, spots, uniform (default: studio)",
     )
-    parser.add_argument("--sampler", metavar="S", default="regular:14", help=SAMPLER_HELP)
-    parser.add_argument("--spp", type=int, default=1, metavar="N", help="frames to accumulate (default: 1)")
+    if has_sampler:
+        parser.add_argument("--sampler", metavar="S", default=None, help=SAMPLER_HELP)
+        parser.add_argument(
+            "--spp", type=int, default=1, metavar="N", help="frames to accumulate (default: 1)"
+        )
     parser.add_argument(
         "--filter",
         choices=("box", "gauss4", "gauss6"),
@@ -124,11 +130,27 @@ def make_parser() -> argparse.ArgumentParser:
     render.add_argument("--device", metavar="NAME", help="part of a Vulkan device's name (default: the best)")
     render.add_argument("--exposure", type=float, default=0.0, metavar="STOPS", help="for .png (default: 0)")
     render.add_argument("--report", metavar="FILE", help="write the report as JSON")
+    render.add_argument(
+        "--target-error",
+        type=parse_target,
+        metavar="E",
+        help=f"take the cheapest sampler that is predicted to meet it, in place of --sampler: {TARGET_HELP}",
+    )
+    render.add_argument(
+        "--verify", action="store_true", help="with --target-error: also measure the error really reached"
+    )
+    render.add_argument(
+        "--error-estimate", action="store_true", help="estimate every pixel's error; channel error.Y of .exr"
+    )
     render.add_argument("--compare", action="store_true", help="also render the reference, print the error")
     render.add_argument("-q", "--quiet", action="store_true", help="do not print the report")
 
     explain = command("explain", "print what rendering would do and why, without rendering", EXPLAIN_EXAMPLES)
     _add_scene_arguments(explain)
+
+    advise = command("advise", ADVISE_HELP, ADVISE_EXAMPLES)
+    _add_scene_arguments(advise, has_sampler=False)
+    add_advise_arguments(advise)
 
     add_study_arguments(command("study", STUDY_HELP, STUDY_EXAMPLES))
 

@@ -1,4 +1,4 @@
-"""The command line: ``burnish render``, ``burnish explain``, ``burnish study``, ``burnish doctor``."""
+"""The command line: ``burnish render``, ``explain``, ``advise``, ``study`` and ``doctor``."""
 
 import argparse
 import os
@@ -8,7 +8,8 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from burnish._cli_arguments import make_parser, parse_sampler
+from burnish._cli_advise import run_advise
+from burnish._cli_arguments import DEFAULT_SAMPLER, make_parser, parse_sampler
 from burnish._cli_study import run_study
 from burnish._extension import load_failure
 from burnish._progress import progress_bar
@@ -60,7 +61,8 @@ def find_camera(scene: "Scene", key: str | None) -> "Camera | None":
     raise ValueError(f"--camera: expected one of {names or 'none: the scene has no camera'}, got {key!r}")
 
 
-def _prepare(options: argparse.Namespace) -> "Scene":
+def prepare_scene(options: argparse.Namespace) -> "Scene":
+    """Load the scene and the environment that the arguments name."""
     scene = load_scene(options.scene)
     scene.environment = load_environment(options.env, options.face_size, options.rotate_env)
     if options.no_background:
@@ -83,24 +85,36 @@ def run_render(options: argparse.Namespace) -> int:
     from burnish import Device, Reference, render
 
     _require_outputs(options)
-    sampler = parse_sampler(options.sampler)
+    if options.target_error is not None and options.sampler is not None:
+        raise ValueError("--target-error: expected no --sampler beside it, it chooses one")
+    if options.verify and options.target_error is None:
+        raise ValueError("--verify: expected a --target-error beside it")
+    sampler = None if options.target_error is not None else parse_sampler(options.sampler or DEFAULT_SAMPLER)
     device = Device(name=options.device) if options.device else None
-    scene = _prepare(options)
+    scene = prepare_scene(options)
     camera = find_camera(scene, options.camera)
 
-    def draw(what: str, sampler: "Sampler") -> "Frame":
+    def draw(what: str, sampler: "Sampler | None", **extras: Any) -> "Frame":
+        view = (scene, camera, options.size, sampler, device, options.spp, options.filter)
         with progress_bar(what) as advance:
-            return render(
-                scene, camera, options.size, sampler, device, options.spp, options.filter, progress=advance
-            )
+            return render(*view, progress=advance, **extras)
 
-    frame = draw("rendering", sampler)
+    frame = draw(
+        "rendering",
+        sampler,
+        target_error=options.target_error,
+        verify=options.verify,
+        error_estimate=options.error_estimate,
+    )
     for name in options.output:
         frame.save(name, exposure=options.exposure)
     if options.report:
         frame.report.save(options.report)
     if not options.quiet:
         print(frame.report)
+    if options.error_estimate and not options.quiet:
+        estimate = frame.estimated_error()
+        print(f"estimated error: {estimate:.5f} relative RMSE, linear radiance, where objects are")
     if options.compare:
         reference = draw("reference", Reference())
         error = frame.error(reference)
@@ -148,8 +162,8 @@ def run_explain(options: argparse.Namespace) -> int:
     """``burnish explain``."""
     from burnish.rendering import plan
 
-    sampler = parse_sampler(options.sampler)
-    print(format_plan(plan(_prepare(options), sampler, options.spp, options.filter, _is_software())))
+    sampler = parse_sampler(options.sampler or DEFAULT_SAMPLER)
+    print(format_plan(plan(prepare_scene(options), sampler, options.spp, options.filter, _is_software())))
     return 0
 
 
@@ -162,7 +176,13 @@ def run_doctor(options: argparse.Namespace) -> int:
     return 0 if report.can_render else 1
 
 
-COMMANDS = {"render": run_render, "explain": run_explain, "study": run_study, "doctor": run_doctor}
+COMMANDS = {
+    "render": run_render,
+    "explain": run_explain,
+    "advise": run_advise,
+    "study": run_study,
+    "doctor": run_doctor,
+}
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -176,7 +196,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
     Returns
     -------
     code : int
-        0 done; 1 this machine cannot render (doctor); 2 an error, in one line on stderr; 130 interrupted.
+        0 done; 1 this machine cannot render (doctor), or no sampler meets the error (advise); 2 an error, in
+        one line on stderr; 130 interrupted.
     """
     given = sys.argv[1:] if arguments is None else list(arguments)
     options = make_parser().parse_args(given)

@@ -64,6 +64,16 @@ def test_other_samplers_are_refused(text):
         ),
         (["render", "sphere", "--env", "absent.hdr"], "absent.hdr"),
         (["render", "sphere", "--sampler", "magic:3"], "--sampler: expected matched"),
+        (
+            ["render", "sphere", "--target-error", "0"],
+            "expected an error such as 0.02 or 2%, in 0.0001..1, got '0'",
+        ),
+        (
+            ["render", "sphere", "--target-error", "2%", "--sampler", "regular"],
+            "expected no --sampler beside it",
+        ),
+        (["render", "sphere", "--verify"], "--verify: expected a --target-error beside it"),
+        (["advise", "sphere", "--report", "absent/a.json"], "expected an existing folder, got absent"),
         (["render", "sphere", "-o", "picture.jpg"], "--output: expected a name ending in .exr or .png"),
         (["render", "sphere", "-o", "absent/a.png"], "expected an existing folder, got absent"),
         (["render", "sphere", "--camera", "7"], "--camera: expected one of"),
@@ -85,7 +95,7 @@ def test_errors_are_one_line_and_exit_code_2(capfd, tmp_path, monkeypatch, argum
     assert out == ""
 
 
-@pytest.mark.parametrize("command", ["render", "explain", "study", "doctor"])
+@pytest.mark.parametrize("command", ["render", "explain", "advise", "study", "doctor"])
 def test_help_has_examples_that_parse(capsys, command):
     with pytest.raises(SystemExit, match="0"):
         make_parser().parse_args([command, "--help"])
