@@ -60,7 +60,7 @@ def add_advise_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--no-probe",
         action="store_true",
-        help="rely on the model alone: quicker, off by up to a factor of two",
+        help="rely on the model alone: quicker, and off by up to a factor of three",
     )
     parser.add_argument(
         "--verify", action="store_true", help="measure the error really reached, on a picture of reduced size"

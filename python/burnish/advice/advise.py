@@ -144,7 +144,7 @@ def advise(
     device : Device or None
         None: the best one, opened once.
     probe : bool
-        False: rely on the model alone, which may be off by a factor of two.
+        False: rely on the model alone, which may be off by a factor of three (docs/targets.md).
     verify : bool
         Also measure the error that the choice really reaches: on a larger picture, four times the probe's
         pixels, against its own truth.

@@ -144,7 +144,7 @@ def test_estimates_rank_the_errors_of_pixels(device):
     [
         (burnish.Matched(14), 2e-3),
         (burnish.Regular(14), 2e-3),
-        (burnish.Importance(14, points="fibonacci"), 0.02),  # its weights do not add up to the albedo
+        (burnish.Importance(14, points="fibonacci"), 0.05),  # its weights do not add up to the albedo
         (burnish.Prefiltered(), 2e-3),
     ],
 )
