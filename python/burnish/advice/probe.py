@@ -18,7 +18,7 @@ from typing import Any
 import numpy as np
 
 from burnish import _core
-from burnish.advice.reduced_maps import reduced_face_size
+from burnish.advice.reduced_maps import largest_face_size, reduced_face_size
 from burnish.advice.truth import DENSE, draw_dense, draw_truth
 from burnish.frame import Frame
 from burnish.rendering import Filter, render
@@ -33,6 +33,8 @@ judged by a smaller one."""
 MOST_PIXELS = 1_000_000
 MOST_TERMS = 2.5e8
 """Pixels times texels that the sum over every texel may take: some seconds on two cores."""
+
+HALF_DENSE = "importance:512:fibonacci"
 
 LEAST_PIXELS = 250
 """With fewer for the sum over every texel the ratio is chance: the dense sampler is better."""
@@ -116,8 +118,9 @@ class Probe:
         self._scene, self._camera, self._filter, self._device = scene, camera, filter, device
         self._wanted, self._covered_pixels = size, covered_pixels
         self._most_terms = most_terms
-        self._face_size = reduced_face_size(list(scene.materials))
+        self._face_size = min(reduced_face_size(list(scene.materials)), largest_face_size(scene))
         self._can_sum = False
+        self._own_error: float | None = None
         self._coverage = 1.0
         self._small = self._large = scaled_size(size, SURVEY_PIXELS)
         self._truth: Frame | None = None
@@ -178,14 +181,27 @@ class Probe:
         made = sampler_from_text(sampler)
         small, truth = self.draw(made, self._small), self.truth
         exact = squared_distance(small, truth)
-        if self._small == self._large:
+        if self._small == self._large and self._can_sum:
             return math.sqrt(exact / max(energy_of(truth), 1e-30))
         dense_small, dense_large = self._dense_pictures()
         if self._can_sum and squared_distance(dense_small, truth) >= exact:
             return math.sqrt(exact / max(energy_of(truth), 1e-30))
-        proxy = squared_distance(self.draw(made, self._large), dense_large)
-        ratio = exact / max(squared_distance(small, dense_small), 1e-30) if self._can_sum else 1.0
-        return math.sqrt(proxy / max(energy_of(dense_large), 1e-30) * min(ratio, LARGEST_RATIO))
+        proxy = squared_distance(self.draw(made, self._large), dense_large) / max(
+            energy_of(dense_large), 1e-30
+        )
+        if not self._can_sum:
+            return math.sqrt(proxy + self._dense_error() ** 2)
+        ratio = exact / max(squared_distance(small, dense_small), 1e-30)
+        return math.sqrt(proxy * min(ratio, LARGEST_RATIO))
+
+    def _dense_error(self) -> float:
+        """Estimate the relative RMSE of the dense sampler, which then is the truth, from half its lookups."""
+        if self._own_error is None:
+            dense = self._dense_pictures()[0]
+            half = self.draw(sampler_from_text(HALF_DENSE), self._small)
+            # Its error falls nearly as 1/n: what the two differ by is about that of the better one.
+            self._own_error = math.sqrt(squared_distance(half, dense) / max(energy_of(dense), 1e-30))
+        return self._own_error
 
     @property
     def truth(self) -> Frame:

@@ -31,6 +31,18 @@ def reduced_face_size(materials: Sequence[_core.Material]) -> int:
     return max(1 << math.ceil(math.log2(needed)), TEXTURED_FACE if is_textured else COARSEST_FACE)
 
 
+def largest_face_size(scene: _core.Scene) -> int:
+    """Texels along a face of the finest map that lights the scene; 1 where there is none.
+
+    Parameters
+    ----------
+    scene : Scene
+        With its environment, and maps of its objects' own.
+    """
+    maps = [scene.environment, *(one.reflects for one in scene.objects)]
+    return max((one.face_size for one in maps if one is not None), default=1)
+
+
 def reduce_environment(environment: _core.Environment, face_size: int) -> _core.Environment:
     """Average an environment over larger texels; one that is as small already is given back.
 

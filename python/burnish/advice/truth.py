@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from burnish import _core
-from burnish.advice.reduced_maps import LEAST_ROUGHNESS, reduced_maps
+from burnish.advice.reduced_maps import LEAST_ROUGHNESS, largest_face_size, reduced_maps
 from burnish.frame import FloatArray, Frame
 from burnish.rendering import Filter, render
 from burnish.study.sampler_text import sampler_from_text
@@ -45,7 +45,8 @@ def draw_truth(
     scene, camera, size, filter, device
         As for `burnish.render`.
     face_size : int
-        Texels along a face of the finer of the two reduced maps.
+        Texels along a face of the finer of the two reduced maps. Where the scene's own are no finer, they are
+        summed as they are, and nothing is extrapolated.
     dense : Frame
         The same picture by `DENSE`.
 
@@ -56,12 +57,16 @@ def draw_truth(
     quadrature = _core.Reference(method="quadrature")
     with reduced_maps(scene, face_size):
         fine = render(scene, camera, size, quadrature, device, 1, filter)
-    with reduced_maps(scene, face_size // 2):
-        coarse = render(scene, camera, size, quadrature, device, 1, filter)
+    is_exact = face_size >= largest_face_size(scene)
+    if not is_exact:
+        with reduced_maps(scene, face_size // 2):
+            coarse = render(scene, camera, size, quadrature, device, 1, filter)
     slopes = [min(lobe.roughness) for material in scene.materials for lobe in material.lobes]
-    largest_cosine = RIM_TEXELS / (face_size * max(min(slopes, default=1.0), LEAST_ROUGHNESS))
+    finest = min(face_size, largest_face_size(scene))
+    largest_cosine = RIM_TEXELS / (finest * max(min(slopes, default=1.0), LEAST_ROUGHNESS))
     is_rim = view_cosines(fine.normal, camera or scene.default_camera()) < largest_cosine
-    return replace(fine, color=extrapolate(fine.color, coarse.color, dense.color, is_rim))
+    other = None if is_exact else coarse.color
+    return replace(fine, color=extrapolate(fine.color, other, dense.color, is_rim))
 
 
 def view_cosines(normal: FloatArray, camera: _core.Camera) -> NDArray[np.float64]:
@@ -91,14 +96,15 @@ def view_cosines(normal: FloatArray, camera: _core.Camera) -> NDArray[np.float64
 
 
 def extrapolate(
-    fine: FloatArray, coarse: FloatArray, dense: FloatArray, is_rim: NDArray[np.bool_]
+    fine: FloatArray, coarse: FloatArray | None, dense: FloatArray, is_rim: NDArray[np.bool_]
 ) -> FloatArray:
     """Put the three pictures together.
 
     Parameters
     ----------
     fine, coarse, dense : (..., 3) float32
-        Linear radiance: by the finer maps, by those of half the size, and by the dense sampler.
+        Linear radiance: by the finer maps, by those of half the size, and by the dense sampler. Without
+        coarse ones the fine are exact, but for the rim.
     is_rim : (...) bool
         Where the dense sampler may stand in.
 
@@ -106,9 +112,9 @@ def extrapolate(
     -------
     color : (..., 3) float32
     """
-    difference = np.linalg.norm(fine - coarse, axis=-1, keepdims=True)
+    difference = np.linalg.norm(fine - (dense if coarse is None else coarse), axis=-1, keepdims=True)
     is_off = difference > DISAGREEMENT * np.linalg.norm(fine, axis=-1, keepdims=True)
-    extrapolated = np.maximum(fine + (fine - coarse) / 3.0, 0.0)
+    extrapolated = fine if coarse is None else np.maximum(fine + (fine - coarse) / 3.0, 0.0)
     return np.asarray(np.where(is_off & is_rim[..., None], dense, extrapolated), np.float32)
 
 

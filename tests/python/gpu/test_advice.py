@@ -18,7 +18,7 @@ from burnish.advice.cost_model import Traits
 from burnish.advice.families import FAMILIES
 from burnish.advice.probe import Probe, scaled_size
 from burnish.advice.reduced_maps import reduced_face_size
-from burnish.advice.truth import draw_dense, draw_truth, extrapolate, view_cosines
+from burnish.advice.truth import DENSE, draw_dense, draw_truth, extrapolate, view_cosines
 
 SIZE = (48, 48)
 
@@ -194,6 +194,16 @@ def test_extrapolation_takes_the_dense_sampler_at_unresolved_rims_only():
     is_rim = np.array([[True, False], [True, False]])
     color = extrapolate(fine, coarse, dense, is_rim)
     np.testing.assert_allclose(color[..., 0], [[0.999, 0.999], [5.0, 0.9]], rtol=1e-6)
+    np.testing.assert_array_equal(extrapolate(fine, None, dense, is_rim)[..., 0], [[5.0, 1.0], [5.0, 1.0]])
+
+
+def test_a_probe_without_sums_knows_that_its_dense_sampler_errs(device):
+    scene = sphere(burnish.KurtLobe(0.1), environments.spots(4, 64))
+    summing, dense = (Probe(scene, None, SIZE, "gauss6", device, most_terms=most) for most in (1e9, 1.0))
+    for probe in (summing, dense):
+        probe.survey("matched:5")
+    assert dense.error("matched:5") == pytest.approx(summing.error("matched:5"), rel=0.15)
+    assert dense.error(DENSE) > 0.0 and dense.truth_text == DENSE
 
 
 def test_a_probe_has_the_shape_of_the_picture_and_its_pixels(device):
