@@ -9,7 +9,7 @@
 layout(constant_id = SPEC_WIDE_COMPONENTS) const bool HAS_WIDE_COMPONENTS = false;
 
 // A mixture's place at one point. A slope y1 axis1 + y2 axis2 (y in units of the lobe's principal axes on the map) is
-//   g = n + y1 g1 + y2 g2,  og = o.g = o.n + y1 o1 + y2 o2,  |g|^2 = 1 + y1^2 m11 + 2 y1 y2 m12 + y2^2 m22.
+//   g = n + y1 g1 + y2 g2,  og = o.g = o.n + y1 o1 + y2 o2.
 struct MixtureView {
     vec3 g1, g2;         // environment space
     float inverse_rho;   // a component of width s has a deviation of s/rho in y1, of s in y2
@@ -31,13 +31,18 @@ struct LobeAxes {
     float rho, minor, foreshortening;
 };
 
+// The plane of view in the frame of the lobe: o_xy/|o_xy|, and |o_xy| as z. Along the normal any plane will do.
+vec3 view_plane(vec3 local_o) {
+    float sine = length(local_o.xy);
+    return vec3(sine > 1e-6 ? local_o.xy / sine : vec2(1.0, 0.0), sine);
+}
+
 // Widths of the mirrored lobe on the sphere: L maps slopes in units of roughness to offsets from the mirror direction, along T1 in
 // the plane of view and T2 across it,
 //   L = 2 [ex mx, ey my; -ey mx c, ex my c],  e = o_xy/|o_xy|,  c^2 = max(o_z, .03)^2 + (ox mx)^2 + (oy my)^2.
 // V diagonalises L^T L; the singular values multiply to 4 mx my c.
 LobeAxes lobe_axes(vec3 local_o, vec2 roughness) {
-    float sine = length(local_o.xy);
-    vec2 e = sine > 1e-6 ? local_o.xy / sine : vec2(1.0, 0.0);
+    vec2 e = view_plane(local_o).xy;
     vec2 along = local_o.xy * roughness;
     float floored = max(local_o.z, 0.03);
     float c2 = floored * floored + dot(along, along);
@@ -65,10 +70,9 @@ LobeAxes lobe_axes(vec3 local_o, vec2 roughness) {
 
 // (T1, T2, I): the mirror direction I, T1 across it in the plane of view, T2 across both. Environment space.
 mat3 mirror_frame(LobeView v) {
-    float sine = length(v.local_o.xy);
-    vec2 e = sine > 1e-6 ? v.local_o.xy / sine : vec2(1.0, 0.0);
+    vec3 e = view_plane(v.local_o);
     vec3 plane = e.x * v.frame[0] + e.y * v.frame[1];
-    return mat3(v.local_o.z * plane + sine * v.frame[2], e.x * v.frame[1] - e.y * v.frame[0], 2.0 * v.local_o.z * v.frame[2] - v.omega_o);
+    return mat3(v.local_o.z * plane + e.z * v.frame[2], e.x * v.frame[1] - e.y * v.frame[0], 2.0 * v.local_o.z * v.frame[2] - v.omega_o);
 }
 
 MixtureView view_mixture(LobeView v, uint table_begin, float variance_share, vec3 specular, vec3 grazing) {

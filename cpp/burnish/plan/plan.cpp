@@ -84,8 +84,7 @@ bool fits_into_constants(const Sampler& sampler) {
     return false;
 }
 
-/// Slope from which a component of a mixture bends so much that its mean takes nine points (measured: maths,
-/// section 6).
+/// Slope from which a component of a mixture bends so much that its mean takes five points instead of two.
 constexpr float WIDE_LOBE = 0.2f;
 
 /// Lookups of round lobes depend on the angle of view alone. Brushed and textured ones are placed at every
