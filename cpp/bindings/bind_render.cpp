@@ -7,7 +7,6 @@
 
 #include "burnish/render/capture.h"
 #include "burnish/render/renderer.h"
-#include "burnish/sampling/prefilter_table.h"
 #include "numpy.h"
 #include "scene_values.h"
 
@@ -173,79 +172,6 @@ std::shared_ptr<render::Frame> render_scene(render::Renderer& renderer, const Sc
         renderer.render(scene, camera ? *camera : scene.default_camera(), settings));
 }
 
-py::list levels_list(uint32_t face_size, std::vector<std::vector<float>> levels) {
-    py::list result;
-    py::ssize_t size = face_size;
-    for (std::vector<float>& level : levels) {
-        result.append(make_array(std::move(level), {6, size, size, 3}));
-        size /= 2;
-    }
-    return result;
-}
-
-py::list pyramid_levels(render::Renderer& renderer, const std::shared_ptr<Environment>& environment,
-                        const std::string& filter) {
-    std::vector<std::vector<float>> levels;
-    {
-        const PyramidFilter chosen = pyramid_filter(filter);
-        const py::gil_scoped_release release;
-        levels = renderer.pyramid(environment, chosen);
-    }
-    return levels_list(environment->face_size(), std::move(levels));
-}
-
-py::list spherical_levels(render::Renderer& renderer, const std::shared_ptr<Environment>& environment,
-                          const std::string& filter) {
-    std::vector<std::vector<float>> levels;
-    {
-        const PyramidFilter chosen = pyramid_filter(filter);
-        const py::gil_scoped_release release;
-        levels = renderer.prefiltered(PrefilterKernel::spherical, environment, chosen);
-    }
-    return levels_list(environment->face_size(), std::move(levels));
-}
-
-py::list prefiltered_levels(render::Renderer& renderer, const std::shared_ptr<Environment>& environment,
-                            const std::string& filter) {
-    std::vector<std::vector<float>> levels;
-    {
-        const PyramidFilter chosen = pyramid_filter(filter);
-        const py::gil_scoped_release release;
-        levels = renderer.prefiltered(PrefilterKernel::lobe, environment, chosen);
-    }
-    py::list result;
-    uint32_t size = environment->face_size();
-    for (std::vector<float>& level : levels) {
-        const float roughness = result.empty() ? 0.0f : prefiltered_roughness(size);
-        const auto edge = py::ssize_t(size);
-        result.append(py::make_tuple(roughness, make_array(std::move(level), {6, edge, edge, 3})));
-        size /= 2;
-    }
-    return result;
-}
-
-py::list times_list(const std::vector<vulkan::PassTime>& times) {
-    py::list result;
-    for (const vulkan::PassTime& time : times)
-        result.append(py::make_tuple(time.name, time.milliseconds));
-    return result;
-}
-
-py::list pyramid_times(render::Renderer& renderer, const std::shared_ptr<Environment>& environment,
-                       const std::string& filter) {
-    std::vector<vulkan::PassTime> times;
-    renderer.pyramid(environment, pyramid_filter(filter), &times);
-    return times_list(times);
-}
-
-py::list prefilter_times(render::Renderer& renderer, const std::shared_ptr<Environment>& environment,
-                         const std::string& filter, bool is_spherical) {
-    std::vector<vulkan::PassTime> times;
-    renderer.prefiltered(is_spherical ? PrefilterKernel::spherical : PrefilterKernel::lobe, environment,
-                         pyramid_filter(filter), &times);
-    return times_list(times);
-}
-
 } // namespace
 
 void bind_render(py::module_& m) {
@@ -268,21 +194,6 @@ void bind_render(py::module_& m) {
     m.def("shade", &shade_points, py::arg("device"), py::arg("environment"), py::arg("material"),
           py::arg("sampler"), py::arg("normals"), py::arg("tangents"), py::arg("views"), py::arg("filter"),
           "Shade points; burnish.shade documents the arguments.");
-    m.def("environment_pyramid", &pyramid_levels, py::arg("device"), py::arg("environment"),
-          py::arg("filter"),
-          "List of (6, n, n, 3) float32, finest first, as lookups see them: rounded to half.");
-    m.def(
-        "environment_prefiltered", &prefiltered_levels, py::arg("device"), py::arg("environment"),
-        py::arg("filter"),
-        "List of (roughness, (6, n, n, 3) float32), finest first, as the sampler Prefiltered looks them up.");
-    m.def("environment_spherical", &spherical_levels, py::arg("device"), py::arg("environment"),
-          py::arg("filter"),
-          "List of (6, n, n, 3) float32, finest first, as the sampler Matched looks them up.");
-    m.def("prefilter_times", &prefilter_times, py::arg("device"), py::arg("environment"), py::arg("filter"),
-          py::arg("is_spherical") = false,
-          "List of (pass, milliseconds) of making one prefiltered map, for benchmarks.");
-    m.def("pyramid_times", &pyramid_times, py::arg("device"), py::arg("environment"), py::arg("filter"),
-          "List of (pass, milliseconds) of making one map's pyramid, for benchmarks.");
     m.def(
         "time_lookups",
         [](render::Renderer& renderer, const std::shared_ptr<Environment>& environment,

@@ -11,6 +11,7 @@ void bind_environment(py::module_& m);
 void bind_scene(py::module_& m);
 void bind_sampling(py::module_& m);
 void bind_render(py::module_& m);
+void bind_maps(py::module_& m);
 void bind_shared(py::module_& m);
 void bind_probe(py::module_& m);
 } // namespace burnish
@@ -25,6 +26,7 @@ PYBIND11_MODULE(_core, m) {
     burnish::bind_scene(m);
     burnish::bind_sampling(m);
     burnish::bind_render(m);
+    burnish::bind_maps(m);
     burnish::bind_shared(m);
     burnish::bind_probe(m);
 }
