@@ -12,7 +12,7 @@ from .frame import orthonormal_basis
 from .matched_table import Mixture, load_table, mixture_at
 
 #: Variance of a level per axis, in (2/n)^2 steradian: n texels along an edge, 2/n a texel in a face's middle.
-PREFILTER_VARIANCE = 0.75
+SPHERICAL_LEVEL_VARIANCE = 0.75
 #: Lookups that make a texel.
 PREFILTER_SAMPLES = 24
 # Levels to add to a lookup's: what measures best for a mixture as fine as this.
@@ -51,7 +51,7 @@ def build_spherical_pyramid(levels: Sequence[npt.ArrayLike], mixture: Mixture | 
     while size >= 1:
         directions = texel_directions(size).reshape(-1, 3)
         parts = [
-            _filtered(cube, directions[k : k + _CHUNK], PREFILTER_VARIANCE * (2 / size) ** 2, mixture)
+            _filtered(cube, directions[k : k + _CHUNK], SPHERICAL_LEVEL_VARIANCE * (2 / size) ** 2, mixture)
             for k in range(0, len(directions), _CHUNK)
         ]
         result.append(np.concatenate(parts).reshape(6, size, size, -1))

@@ -84,7 +84,14 @@ def sampler_to_text(sampler: Any, with_count: bool = True) -> str:
     return ":".join(parts)
 
 
-def _value(text: str) -> int | float | str:
+def parse_value(text: str) -> int | float | str:
+    """Read a number, an integer where it is one; else the text itself.
+
+    Parameters
+    ----------
+    text : str
+        The right side of ``key=value``.
+    """
     for kind in (int, float):
         try:
             return kind(text)
@@ -116,7 +123,7 @@ def sampler_from_text(text: str) -> Any:
     if unknown:
         raise ValueError(f"{text}: expected one of {', '.join(parameters)}, got {unknown[0]!r}")
     try:
-        return type(sampler)(**parameters | {key: _value(value) for key, value in given.items()})
+        return type(sampler)(**parameters | {key: parse_value(value) for key, value in given.items()})
     except (ValueError, TypeError) as error:
         raise ValueError(f"{text}: {str(error).splitlines()[0]}") from error
 

@@ -9,6 +9,7 @@ from typing import Any, Protocol
 from burnish import _core, builtin
 from burnish.rendering import Filter
 from burnish.study.identity import digest, make_material
+from burnish.study.sampler_text import parse_value
 from burnish.study.subject import SceneSubject, Subject
 
 Parameters = tuple[tuple[str, Any], ...]
@@ -53,15 +54,6 @@ class LiveSource:
     def open(self) -> Subject:
         """Give the subject."""
         return self.subject
-
-
-def _value(text: str) -> int | float | str:
-    for kind in (int, float):
-        try:
-            return kind(text)
-        except ValueError:
-            continue
-    return text
 
 
 def _file_state(name: str) -> list[Any]:
@@ -113,7 +105,7 @@ class EnvironmentSource:
         wrong = [option for option in options if "=" not in option]
         if wrong:
             raise ValueError(f"environment: expected NAME:KEY=VALUE, got {wrong[0]!r} in {text!r}")
-        given = {key: _value(value) for key, value in (option.split("=", 1) for option in options)}
+        given = {key: parse_value(value) for key, value in (option.split("=", 1) for option in options)}
         parameters = {"face_size": face_size or 256} | given
         return cls(name, tuple(sorted(parameters.items())), rotation_degrees)
 

@@ -27,7 +27,7 @@ from burnish.oracle.metallic_roughness import Material
 from burnish.oracle.pyramid import build_pyramid
 from burnish.oracle.reference import shade_reference
 from burnish.oracle.shading import shade
-from burnish.oracle.spherical_pyramid import PREFILTER_VARIANCE, build_spherical_pyramid
+from burnish.oracle.spherical_pyramid import SPHERICAL_LEVEL_VARIANCE, build_spherical_pyramid
 
 ASPECTS = LARGEST_ASPECT ** (np.arange(ASPECT_COUNT) / (ASPECT_COUNT - 1))
 LOBES = {
@@ -232,6 +232,6 @@ def test_a_spherical_level_has_its_variance_everywhere():
     for level, size in ((1, 32), (2, 16), (3, 8)):
         length = np.linalg.norm(levels[level], axis=-1)
         variance = -np.log(length)
-        np.testing.assert_allclose(variance, PREFILTER_VARIANCE * (2 / size) ** 2, rtol=0.12)
+        np.testing.assert_allclose(variance, SPHERICAL_LEVEL_VARIANCE * (2 / size) ** 2, rtol=0.12)
         along = normalize(levels[level])
         assert np.max(np.linalg.norm(along - texel_directions(size), axis=-1)) < 0.02 * 2 / size * 10
