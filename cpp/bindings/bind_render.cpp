@@ -1,4 +1,5 @@
 // Frames, shaded points, captured maps and plans.
+#include <limits>
 #include <optional>
 
 #include <pybind11/functional.h>
@@ -73,9 +74,12 @@ py::dict report_dict(const render::Report& report) {
     return result;
 }
 
-py::dict plan_dict(const Scene& scene, const Sampler& sampler, int64_t spp, const std::string& filter, bool) {
+py::dict plan_dict(const Scene& scene, const Sampler& sampler, int64_t spp, const std::string& filter,
+                   bool is_software) {
     SunCache suns;
-    const Plan plan = make_plan(scene, plan_settings(sampler, spp, filter), suns);
+    PlanSettings settings = plan_settings(sampler, spp, filter);
+    settings.lookup = choose_lookup(is_software, {}, std::numeric_limits<uint64_t>::max());
+    const Plan plan = make_plan(scene, settings, suns);
     py::list passes, classes;
     for (const PassLine& line : plan.passes)
         passes.append(py::dict(py::arg("name") = line.name, py::arg("reason") = line.reason));

@@ -45,12 +45,16 @@ py::dict features_of(const vulkan::Device& device) {
     return result;
 }
 
-std::shared_ptr<render::Renderer> open_device(const std::string& name, std::optional<bool> validation) {
+std::shared_ptr<render::Renderer> open_device(const std::string& name, std::optional<bool> validation,
+                                              const std::string& lookup) {
     const py::gil_scoped_release release;
     vulkan::DeviceSettings settings;
     settings.name = name;
     if (validation) settings.validation = *validation;
-    return std::make_shared<render::Renderer>(vulkan::Device::create(settings));
+    std::optional<MapLookup> asked = map_lookup(lookup);
+    const char* from_environment = std::getenv("BURNISH_LOOKUP");
+    if (!asked && from_environment && *from_environment) asked = map_lookup(from_environment);
+    return std::make_shared<render::Renderer>(vulkan::Device::create(settings), asked);
 }
 
 } // namespace
@@ -85,12 +89,16 @@ name : str
 validation : bool or None
     Validation layer with synchronization validation; its errors are raised. None: the environment variable
     BURNISH_VALIDATION.
+lookup : str
+    How maps are read: "sampler", by the device's own; "software", by ours, which a CPU does in half the time. "auto": the
+    environment variable BURNISH_LOOKUP, else "software" on a CPU.
 
 Raises
 ------
 VulkanError
     If no device fits; the message lists every device with the reason.)")
-        .def(py::init(&open_device), py::arg("name") = "", py::arg("validation") = py::none())
+        .def(py::init(&open_device), py::arg("name") = "", py::arg("validation") = py::none(),
+             py::arg("lookup") = "auto")
         .def_property_readonly(
             "name", [](const render::Renderer& self) { return self.device()->info().name; },
             "As the driver gives it.")
@@ -100,6 +108,9 @@ VulkanError
         .def_property_readonly(
             "is_software", [](const render::Renderer& self) { return self.device()->info().is_software; },
             "True for a CPU.")
+        .def_property_readonly(
+            "lookup", [](const render::Renderer& self) { return map_lookup_name(self.lookup().wanted); },
+            "How maps are read: \"sampler\" or \"software\".")
         .def_property_readonly(
             "api_version",
             [](const render::Renderer& self) { return version_text(self.device()->info().api_version); },

@@ -2,6 +2,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
+#include "shade/map_lookup.glsl"
 #include "shade/surface_point.glsl"
 
 void main() {
@@ -11,5 +12,5 @@ void main() {
     point.index = uint(point.pixel.y) * view.width_px + uint(point.pixel.x);
     MapRecord map = map_records[view.background_map];
     vec3 direction = environment_from_world(map, pixel_ray(vec2(point.pixel)));
-    store_radiance(point, textureLod(maps, vec4(direction, float(map.layer)), 0.0).rgb * map.radiance_scale, 0.0);
+    store_radiance(point, look_up_finest(direction, float(map.layer)) * map.radiance_scale, 0.0);
 }

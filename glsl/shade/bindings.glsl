@@ -24,7 +24,6 @@ layout(std430, binding = BINDING_VIEW) readonly buffer Views { ViewRecord view; 
 layout(std430, binding = BINDING_MATERIALS) readonly buffer Materials { MaterialRecord materials[]; };
 layout(std430, binding = BINDING_LOBES) readonly buffer Lobes { LobeRecord lobes[]; };
 layout(std430, binding = BINDING_MAP_RECORDS) readonly buffer Maps { MapRecord map_records[]; };
-layout(binding = BINDING_MAPS) uniform samplerCubeArray maps;
 layout(binding = BINDING_SURFACE, rg32ui) uniform readonly uimage2D surface_image;
 layout(binding = BINDING_VARYING_DIFFUSE, rgba16f) uniform readonly image2D varying_diffuse;
 layout(binding = BINDING_VARYING_SPECULAR, rgba16f) uniform readonly image2D varying_specular;

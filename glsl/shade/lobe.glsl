@@ -8,6 +8,7 @@
 #include "lib/kurt_lobe.glsl"
 #include "shade/albedo.glsl"
 #include "shade/bindings.glsl"
+#include "shade/map_lookup.glsl"
 
 layout(constant_id = SPEC_TABLE) const uint TABLE = TABLE_BUFFER;
 layout(constant_id = SPEC_FOOTPRINT) const uint FOOTPRINT = FOOTPRINT_EXACT;
@@ -42,8 +43,7 @@ struct LobeSums {
 };
 
 struct Lookup {
-    vec3 direction;
-    float level;
+    MapAim aim;
     float weight;
     float schlick;
     float density;
@@ -72,7 +72,7 @@ Lookup place_lookup(LobeView v, vec4 entry) {
     float q = 2.0 * c * og;
 
     Lookup lookup;
-    lookup.direction = q * g - v.omega_o;
+    vec3 direction = q * g - v.omega_o;
     float cos_i = q - v.local_o.z;
     float weight = entry.z;
     float texel_factor = entry.w;
@@ -91,15 +91,16 @@ Lookup place_lookup(LobeView v, vec4 entry) {
     lookup.weight = weight * cos_i_power(cos_i, v.alpha);
     lookup.schlick = HAS_FRESNEL ? schlick_weight(og * inversesqrt(inverse_c)) : 0.0;
 
-    vec3 a = abs(lookup.direction);
+    vec3 a = abs(direction);
     float largest = max(max(a.x, a.y), a.z);
-    lookup.level = mip_level(FOOTPRINT == FOOTPRINT_EXACT ? texels_exact(texel_factor, og, largest)
-                                                          : texels_published(texel_factor, v.area_term, og, largest));
+    float level = mip_level(FOOTPRINT == FOOTPRINT_EXACT ? texels_exact(texel_factor, og, largest)
+                                                         : texels_published(texel_factor, v.area_term, og, largest));
+    lookup.aim = aim_at_map(direction, v.layer, level);
     return lookup;
 }
 
-void add_lookup(inout LobeSums sums, Lookup lookup, float layer) {
-    vec3 light = IS_WITHOUT_LOOKUPS ? lookup.direction + lookup.level : textureLod(maps, vec4(lookup.direction, layer), lookup.level).rgb;
+void add_lookup(inout LobeSums sums, Lookup lookup) {
+    vec3 light = IS_WITHOUT_LOOKUPS ? lookup.aim.direction + lookup.aim.level : load_map(lookup.aim);
     sums.base += lookup.weight * light;
     sums.base_weight += lookup.weight;
     if (HAS_FRESNEL) {
@@ -110,12 +111,12 @@ void add_lookup(inout LobeSums sums, Lookup lookup, float layer) {
     sums.density += lookup.density;
 }
 
-// Lookups go in phases of four: first the arithmetic of all, then the loads of all, so that a CPU can overlap them.
+// Lookups go in phases of four: first all are aimed, then all are loaded, so that a CPU can overlap the loads.
 const uint PHASE = 4u;
 
 // Unrolled by hand: SAMPLE_COUNT is a constant, so what lies beyond it is not compiled.
 #define PLACE(k, lookup) if (SAMPLE_COUNT > uint(k)) lookup = place_lookup(v, SAMPLE_ENTRY(k));
-#define ADD(k, lookup) if (SAMPLE_COUNT > uint(k)) add_lookup(sums, lookup, v.layer);
+#define ADD(k, lookup) if (SAMPLE_COUNT > uint(k)) add_lookup(sums, lookup);
 #define GATHER_PHASE(a, b, c, d)                                                                                       \
     PLACE(a, l0) PLACE(b, l1) PLACE(c, l2) PLACE(d, l3)                                                                \
     ADD(a, l0) ADD(b, l1) ADD(c, l2) ADD(d, l3)
@@ -137,7 +138,7 @@ LobeSums gather_buffer(LobeView v, uint table_begin, uint table_count) {
         Lookup lookups[PHASE];
         [[unroll]] for (uint j = 0u; j < PHASE; ++j)
             lookups[j] = place_lookup(v, imageLoad(sample_table, int(table_begin + k + j)));
-        [[unroll]] for (uint j = 0u; j < PHASE; ++j) add_lookup(sums, lookups[j], v.layer);
+        [[unroll]] for (uint j = 0u; j < PHASE; ++j) add_lookup(sums, lookups[j]);
     }
     return sums;
 }

@@ -128,13 +128,12 @@ struct Component {
 float spherical_level(float share) { return share > 1.0 ? 1.0 + 0.5 * log2(share) : share; }
 
 // `share`: see spherical_level.
-Lookup finish_component(Component component, float weight, float share) {
+Lookup finish_component(LobeView v, Component component, float weight, float share) {
     Lookup lookup;
-    lookup.direction = component.direction;
+    lookup.aim = aim_at_map(component.direction, v.layer, spherical_level(share));
     lookup.weight = weight * component.base;
     lookup.schlick = HAS_FRESNEL ? component.schlick / component.base : 0.0;
     lookup.density = 0.0;
-    lookup.level = spherical_level(share);
     return lookup;
 }
 
@@ -169,7 +168,7 @@ Lookup place_narrow(LobeView v, MixtureView view, Pair pair, vec3 d, float og, v
     vec2 along = share * q;
     component.direction =
         (along.x + along.y) * (v.frame[2] + d) + (pair.s * (along.x - along.y)) * view.h - component.gain * v.omega_o;
-    return finish_component(component, pair.weight, pair.variance * og);
+    return finish_component(v, component, pair.weight, pair.variance * og);
 }
 
 void add_point(LobeView v, MixtureView view, vec3 offset, float share, inout Component component) {
@@ -203,7 +202,7 @@ Lookup place_wide(LobeView v, MixtureView view, Pair pair, vec3 d, float og) {
     float center2 = 1.0 + dot(d, d);
     float least = 0.5 * pair.s * pair.s * view.linear * og / (center2 * center2);
     variance = clamp(variance, max(least, 1e-7), 1.0);
-    return finish_component(component, pair.weight, view.share * variance);
+    return finish_component(v, component, pair.weight, view.share * variance);
 }
 
 void place_pair(LobeView v, MixtureView view, vec4 entry, out Lookup one, out Lookup other) {
@@ -235,10 +234,10 @@ void place_pair(LobeView v, MixtureView view, vec4 entry, out Lookup one, out Lo
 vec4 mixture_entry(MixtureView view, uint which) { return imageLoad(sample_table, view.row + int(which)); }
 
 // The entry's lookup at this view: see build_matched_view_table.
-Lookup place_by_view(mat3 mirror_frame, vec4 entry, float schlick) {
+Lookup place_by_view(mat3 mirror_frame, float layer, vec4 entry, float schlick) {
     Lookup lookup;
-    lookup.direction = entry.x * mirror_frame[0] + entry.y * mirror_frame[1] + (0.5 - 0.5 * dot(entry.xy, entry.xy)) * mirror_frame[2];
-    lookup.level = entry.w;
+    vec3 direction = entry.x * mirror_frame[0] + entry.y * mirror_frame[1] + (0.5 - 0.5 * dot(entry.xy, entry.xy)) * mirror_frame[2];
+    lookup.aim = aim_at_map(direction, layer, entry.w);
     lookup.weight = entry.z;
     lookup.schlick = schlick;
     lookup.density = 0.0;
@@ -246,7 +245,7 @@ Lookup place_by_view(mat3 mirror_frame, vec4 entry, float schlick) {
 }
 
 #define VIEW_ENTRY(k) imageLoad(sample_table, row + k)
-#define PLACE_BY_VIEW(k, c, lookup) if (SAMPLE_COUNT > uint(k)) lookup = place_by_view(mirror_frame, VIEW_ENTRY(k), schlick[c]);
+#define PLACE_BY_VIEW(k, c, lookup) if (SAMPLE_COUNT > uint(k)) lookup = place_by_view(mirror_frame, v.layer, VIEW_ENTRY(k), schlick[c]);
 #define GATHER_BY_VIEW(a, b, c, d)                                                                                     \
     if (HAS_FRESNEL && SAMPLE_COUNT > uint(a)) schlick = VIEW_ENTRY(int(SAMPLE_COUNT) + a / 4);                        \
     PLACE_BY_VIEW(a, 0, l0) PLACE_BY_VIEW(b, 1, l1) PLACE_BY_VIEW(c, 2, l2) PLACE_BY_VIEW(d, 3, l3)                    \
@@ -268,7 +267,7 @@ LobeSums gather_by_view(LobeView v, uint table_begin) {
 }
 
 #define PLACE_PAIR(k, one, other) if (SAMPLE_COUNT / 2u > uint(k)) place_pair(v, view, mixture_entry(view, odd + uint(k)), one, other);
-#define ADD_PAIR(k, one, other) if (SAMPLE_COUNT / 2u > uint(k)) { add_lookup(sums, one, v.layer); add_lookup(sums, other, v.layer); }
+#define ADD_PAIR(k, one, other) if (SAMPLE_COUNT / 2u > uint(k)) { add_lookup(sums, one); add_lookup(sums, other); }
 #define GATHER_PAIRS(a, b) PLACE_PAIR(a, l0, l1) PLACE_PAIR(b, l2, l3) ADD_PAIR(a, l0, l1) ADD_PAIR(b, l2, l3)
 
 LobeSums gather_matched(LobeView v, MixtureView view) {
@@ -277,7 +276,7 @@ LobeSums gather_matched(LobeView v, MixtureView view) {
     const uint odd = SAMPLE_COUNT & 1u;
     if (odd == 1u) {
         place_pair(v, view, mixture_entry(view, 0u), l0, l1);
-        add_lookup(sums, l0, v.layer);
+        add_lookup(sums, l0);
     }
     GATHER_PAIRS(0, 1) GATHER_PAIRS(2, 3) GATHER_PAIRS(4, 5) GATHER_PAIRS(6, 7)
     GATHER_PAIRS(8, 9) GATHER_PAIRS(10, 11) GATHER_PAIRS(12, 13) GATHER_PAIRS(14, 15)

@@ -7,7 +7,7 @@
 #include "shared/prefilter.h"
 
 // Level whose lobe has this slope, between two levels by the log. The map stands at level 0 for the narrowest lobe it can show;
-// beyond the last level textureLod clamps.
+// beyond the last level the lookup clamps.
 float prefiltered_level(float roughness, float face_size) {
     float level = log2(roughness * face_size / PREFILTER_SLOPE);
     const float map_level = log2(PREFILTER_MAP_SLOPE / PREFILTER_SLOPE);
@@ -18,7 +18,7 @@ float prefiltered_level(float roughness, float face_size) {
 vec3 shade_prefiltered(LobeView v, SurfaceLobe lobe, LobeRecord record, float face_size) {
     vec3 mirror = 2.0 * v.local_o.z * v.frame[2] - v.omega_o;
     float level = prefiltered_level(sqrt(v.roughness.x * v.roughness.y), face_size);
-    vec3 light = IS_WITHOUT_LOOKUPS ? mirror + level : textureLod(maps, vec4(mirror, v.layer), level).rgb;
+    vec3 light = IS_WITHOUT_LOOKUPS ? mirror + level : load_map(aim_at_map(mirror, v.layer, level));
     vec2 albedo = lobe_albedo(record, v.roughness, v.local_o);
     vec3 reflectance = lobe.specular * albedo.x;
     if (HAS_FRESNEL) reflectance += lobe.grazing * albedo.y;

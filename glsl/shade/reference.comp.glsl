@@ -10,6 +10,7 @@
 #include "lib/random.glsl"
 #include "lib/spherical_harmonics.glsl"
 #include "shade/albedo.glsl"
+#include "shade/map_lookup.glsl"
 #include "shade/surface_point.glsl"
 
 layout(constant_id = SPEC_IS_QUADRATURE) const bool IS_QUADRATURE = false;
@@ -48,7 +49,7 @@ vec3 quadrature(LobeView v, uint face_size) {
         vec3 w = cube_direction(texel / face_texels, uv.x, uv.y);
         vec3 local_i = normalize(w) * v.frame;
         vec3 value = lobe_value(v, local_i, half_vector(local_i, v.local_o));
-        sum += value * texel_solid_angle(float(face_texels), w) * textureLod(maps, vec4(w, v.layer), 0.0).rgb;
+        sum += value * texel_solid_angle(float(face_texels), w) * look_up_finest(w, v.layer);
     }
     return sum;
 }
@@ -80,7 +81,7 @@ vec3 draw_texel(uint index, uint seed, MapRecord map) {
 vec3 weigh(LobeView v, vec3 direction, vec3 local_i, vec3 h, MapRecord map) {
     vec3 value = lobe_value(v, local_i, h);
     float pdf = kurt_pdf(h, dot(v.local_o, h), v.lobe.roughness) + texel_pdf(direction, map);
-    return value * textureLod(maps, vec4(direction, v.layer), 0.0).rgb / max(pdf, 1e-20);
+    return value * look_up_finest(direction, v.layer) / max(pdf, 1e-20);
 }
 
 vec3 progressive(LobeView v, MapRecord map, uint seed) {

@@ -63,10 +63,15 @@ void add_map_sets(Plan& plan) {
         const auto found = std::find_if(plan.map_sets.begin(), plan.map_sets.end(),
                                         [&](const MapSet& set) { return set.face_size == face_size; });
         if (found == plan.map_sets.end())
-            plan.map_sets.push_back({face_size, {k}});
+            plan.map_sets.push_back({face_size, {k}, MapLookup::sampler});
         else
             found->environments.push_back(k);
     }
+    const LookupChoice& choice = plan.settings.lookup;
+    for (MapSet& set : plan.map_sets)
+        if (choice.wanted == MapLookup::software &&
+            cube_pair_count(set.face_size) * set.environments.size() <= choice.most_pairs)
+            set.lookup = MapLookup::software;
 }
 
 uint32_t map_set_of(const Plan& plan, uint32_t environment) {

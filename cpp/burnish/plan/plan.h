@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "burnish/plan/map_lookup.h"
 #include "burnish/sampling/pyramid_filter.h"
 #include "burnish/sampling/sampler.h"
 #include "burnish/sampling/sun_split.h"
@@ -21,6 +22,7 @@ struct PlanSettings {
     PyramidFilter filter = PyramidFilter::gauss6;
     bool has_lookups = true; ///< false for benchmarks: shading alone, the picture means nothing
     bool has_lobes = true;   ///< false for captured maps: diffuse, emission and the far environment only
+    LookupChoice lookup;
 };
 
 /// One thing the engine can simulate, and whether this scene calls for it.
@@ -79,6 +81,7 @@ struct MaterialInstance {
 struct MapSet {
     uint32_t face_size = 0;
     std::vector<uint32_t> environments; ///< into Plan::environments, in order of layers
+    MapLookup lookup = MapLookup::sampler;
 };
 
 /// A map whose suns are taken out, for samplers that shade them directly.

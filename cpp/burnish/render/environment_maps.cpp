@@ -79,6 +79,15 @@ EnvironmentMaps::EnvironmentMaps(std::shared_ptr<const vulkan::Device> device, P
     pass_times_.insert(pass_times_.end(), commands.pass_times().begin(), commands.pass_times().end());
 }
 
+void EnvironmentMaps::pack(TexelPairs& packer) {
+    vulkan::Commands commands(image_.device());
+    commands.begin_pass("pack");
+    pairs_ = packer.record(commands, image_);
+    commands.end_pass();
+    commands.submit();
+    pass_times_.insert(pass_times_.end(), commands.pass_times().begin(), commands.pass_times().end());
+}
+
 std::vector<std::vector<float>> EnvironmentMaps::read_levels(uint32_t cube) {
     if (cube >= count()) {
         throw std::invalid_argument(message("cube: expected 0..", count() - 1, ", got ", cube));

@@ -3,6 +3,7 @@
 
 #include "burnish/render/prefilter.h"
 #include "burnish/render/pyramid.h"
+#include "burnish/render/texel_pairs.h"
 #include "burnish/scene/environment.h"
 
 #include <memory>
@@ -24,12 +25,18 @@ public:
                     std::optional<PyramidFilter> filter, Prefilter* prefilter = nullptr,
                     PrefilterKernel kernel = PrefilterKernel::lobe);
 
+    /// Packs the maps for the software lookup too.
+    void pack(TexelPairs& packer);
+    /// The packed maps; a null handle where they were not packed.
+    const vulkan::TexelView& pairs() const { return pairs_.view; }
+
     /// In SHADER_READ_ONLY_OPTIMAL; view() is the cube array, or the cube where there is one only.
-    vulkan::Image& image() { return image_; }
+    const vulkan::Image& image() const { return image_; }
     uint32_t face_size() const { return image_.settings().width; }
     uint32_t count() const { return image_.settings().layers / 6; }
     uint32_t level_count() const { return image_.settings().levels; }
-    /// "upload", as the host sees it, "pyramid" and "prefilter", as the device does, where they were made.
+    /// "upload", as the host sees it, "pyramid", "prefilter" and "pack", as the device does, where they were
+    /// made.
     const std::vector<vulkan::PassTime>& pass_times() const { return pass_times_; }
 
     /// One cube's levels as stored, finest first: 6 n n 3 floats each (face, row, column, channel).
@@ -37,6 +44,7 @@ public:
 
 private:
     vulkan::Image image_;
+    PairBuffer pairs_;
     std::vector<vulkan::PassTime> pass_times_;
 };
 

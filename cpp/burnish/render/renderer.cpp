@@ -46,8 +46,16 @@ void read_surface(FrameTargets& targets, Frame& frame) {
 
 } // namespace
 
-Renderer::Renderer(std::shared_ptr<vulkan::Device> device)
-    : device_(std::move(device)), pipelines_(device_), pyramid_(device_), placeholders_(device_) {}
+Renderer::Renderer(std::shared_ptr<vulkan::Device> device, std::optional<MapLookup> lookup)
+    : device_(std::move(device)),
+      lookup_(choose_lookup(device_->info().is_software, lookup, device_->limits().maxTexelBufferElements)),
+      pipelines_(device_), pyramid_(device_), placeholders_(device_) {}
+
+Plan Renderer::make_plan(const Scene& scene, const PlanSettings& settings) {
+    PlanSettings with_lookup = settings;
+    with_lookup.lookup = lookup_;
+    return burnish::make_plan(scene, with_lookup, suns_);
+}
 
 GpuScene& Renderer::prepare_scene(const Scene& scene) {
     const uint64_t wanted = fingerprint(scene);
@@ -118,7 +126,7 @@ Frame Renderer::render(const Scene& scene, const Camera& camera, const RenderSet
             message("size: expected 1..16384 pixels each way, got ", settings.height, " x ", settings.width));
     pipelines_.take_compile_ms();
     GpuScene& gpu_scene = prepare_scene(scene);
-    const Plan plan = make_plan(scene, settings.plan, suns_);
+    const Plan plan = make_plan(scene, settings.plan);
 
     Frame frame;
     frame.width = settings.width;
@@ -219,7 +227,7 @@ std::vector<glm::vec3> Renderer::shade(const std::shared_ptr<const Environment>&
     scene.materials = {material};
     scene.materials[0].source.reset(); // points carry no texture coordinates: its factors hold everywhere
     scene.objects.emplace_back();
-    const Plan plan = make_plan(scene, settings, suns_);
+    const Plan plan = make_plan(scene, settings);
     std::vector<vulkan::PassTime> times;
     const std::vector<std::shared_ptr<EnvironmentMaps>> maps = prepare_maps(plan, times);
     const ShadeTables tables = make_shade_tables(device_, scene, plan, tables_);

@@ -40,9 +40,11 @@ struct ShadePoints {
 /// several threads wait for each other.
 class Renderer {
 public:
-    explicit Renderer(std::shared_ptr<vulkan::Device> device);
+    /// `lookup`: how maps are read, none for what is best on the device.
+    explicit Renderer(std::shared_ptr<vulkan::Device> device, std::optional<MapLookup> lookup = {});
 
     const std::shared_ptr<vulkan::Device>& device() const { return device_; }
+    const LookupChoice& lookup() const { return lookup_; }
 
     /// Throws std::invalid_argument for a scene or settings that make no sense, VulkanError if the device
     /// fails.
@@ -80,6 +82,8 @@ private:
     std::vector<std::shared_ptr<EnvironmentMaps>> prepare_maps(const Plan& plan,
                                                                std::vector<vulkan::PassTime>& times);
     Prefilter& prefilter();
+    TexelPairs& texel_pairs();
+    Plan make_plan(const Scene& scene, const PlanSettings& settings);
     GpuScene& prepare_scene(const Scene& scene);
     const vulkan::Buffer& prepare_alias(const std::vector<std::shared_ptr<const Environment>>& environments);
     FrameTargets& prepare_targets(const Plan& plan, uint32_t width, uint32_t height);
@@ -90,10 +94,12 @@ private:
     Report start_report(const Scene& scene, const Plan& plan, const ShadeTables& tables) const;
 
     std::shared_ptr<vulkan::Device> device_;
+    LookupChoice lookup_;
     std::mutex mutex_;
     Pipelines pipelines_;
     Pyramid pyramid_;
     std::unique_ptr<Prefilter> prefilter_; // once a frame calls for it
+    std::unique_ptr<TexelPairs> texel_pairs_; // likewise
     Placeholders placeholders_;
     TableCache tables_;
     SunCache suns_;

@@ -41,6 +41,7 @@ std::vector<std::shared_ptr<EnvironmentMaps>> Renderer::prepare_maps(const Plan&
         const auto maps = std::make_shared<EnvironmentMaps>(device_, pyramid_, environments, filter,
                                                             kernel ? &prefilter() : nullptr,
                                                             kernel.value_or(PrefilterKernel::lobe));
+        if (set.lookup == MapLookup::software) maps->pack(texel_pairs());
         add_pass_times(times, maps->pass_times());
         maps_.push_back({{environments.begin(), environments.end()}, filter, kernel, maps});
         result.push_back(maps);
@@ -51,6 +52,11 @@ std::vector<std::shared_ptr<EnvironmentMaps>> Renderer::prepare_maps(const Plan&
 Prefilter& Renderer::prefilter() {
     if (!prefilter_) prefilter_ = std::make_unique<Prefilter>(device_);
     return *prefilter_;
+}
+
+TexelPairs& Renderer::texel_pairs() {
+    if (!texel_pairs_) texel_pairs_ = std::make_unique<TexelPairs>(device_);
+    return *texel_pairs_;
 }
 
 std::vector<std::vector<float>> Renderer::pyramid(const std::shared_ptr<const Environment>& environment,

@@ -1,6 +1,7 @@
 #include "burnish/render/shade_pass.h"
 
 #include <algorithm>
+#include <bit>
 
 #include "burnish/error.h"
 #include "shared/constants.h"
@@ -101,15 +102,22 @@ vulkan::Image one_texel(const vulkan::DevicePointer& device, VkFormat format) {
 
 } // namespace
 
+void add_lookup_constants(vulkan::SpecializationConstants& constants, const MapSet& set) {
+    const bool is_software = set.lookup == MapLookup::software;
+    constants.set(shared::SPEC_LOOKUP, is_software ? shared::LOOKUP_SOFTWARE : shared::LOOKUP_SAMPLER)
+        .set(shared::SPEC_LAST_LEVEL, is_software ? std::countr_zero(set.face_size) : 0);
+}
+
 Placeholders::Placeholders(const vulkan::DevicePointer& device)
-    : buffer(device, 256, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT),
+    : buffer(device, 256, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_STORAGE_TEXEL_BUFFER_BIT),
+      pairs(vulkan::texel_view(buffer, VK_FORMAT_R32G32B32A32_UINT)),
       surface(one_texel(device, VK_FORMAT_R32G32_UINT)),
       varying(one_texel(device, VK_FORMAT_R16G16B16A16_SFLOAT)) {}
 
 ShadePass::ShadePass(Pipelines& pipelines, const Plan& plan, const ShadeTables& tables,
                      const std::vector<std::shared_ptr<EnvironmentMaps>>& maps, const ShadeInputs& inputs,
                      const Placeholders& unused, const ReferenceBuffers* reference)
-    : tables_(tables), maps_(maps), inputs_(inputs), unused_(unused), sampler_(pipelines.device(), {}) {
+    : tables_(tables), inputs_(inputs), unused_(unused), sampler_(pipelines.device(), {}) {
     const bool is_points = inputs.targets == nullptr;
     for (uint32_t k = 0; k < plan.classes.size(); ++k) {
         const ShadeTraits& traits = plan.classes[k].traits;
@@ -118,8 +126,9 @@ ShadePass::ShadePass(Pipelines& pipelines, const Plan& plan, const ShadeTables& 
             constants.set(shared::SPEC_IS_QUADRATURE, reference->is_quadrature);
         else
             add_pattern_constants(constants, traits, plan.settings, tables.class_tables[k]);
+        add_lookup_constants(constants, plan.map_sets[traits.map_set]);
         const std::string shader = reference ? "shade/reference.comp" : "shade/shade.comp";
-        classes_.push_back(make_stage(pipelines, shader, constants, k, traits.map_set, reference));
+        classes_.push_back(make_stage(pipelines, shader, constants, k, maps[traits.map_set].get(), reference));
         classes_.back().name = message(reference ? "reference " : "shade ", k);
     }
     if (is_points) return;
@@ -130,8 +139,8 @@ ShadePass::ShadePass(Pipelines& pipelines, const Plan& plan, const ShadeTables& 
     tile_constants.set(shared::SPEC_CLASS_COUNT, class_count);
     vulkan::SpecializationConstants finish_constants = tile_constants;
     tile_constants.set(shared::SPEC_SHADE_CLASS, background_class);
-    tile_stages_.push_back(make_stage(pipelines, "shade/classify_tiles.comp", tile_constants, 0, 0, nullptr));
-    tile_stages_.push_back(make_stage(pipelines, "shade/finish_tiles.comp", finish_constants, 0, 0, nullptr));
+    tile_stages_.push_back(make_stage(pipelines, "shade/classify_tiles.comp", tile_constants, 0, nullptr, nullptr));
+    tile_stages_.push_back(make_stage(pipelines, "shade/finish_tiles.comp", finish_constants, 0, nullptr, nullptr));
     if (plan.has_background) {
         vulkan::SpecializationConstants constants;
         const bool is_turned = plan.environments[0]->rotation != glm::mat3(1.0f);
@@ -140,15 +149,16 @@ ShadePass::ShadePass(Pipelines& pipelines, const Plan& plan, const ShadeTables& 
         uint32_t map_set = 0;
         for (uint32_t k = 0; k < plan.map_sets.size(); ++k)
             if (plan.map_sets[k].face_size == plan.environments[0]->face_size()) map_set = k;
-        background_.push_back(
-            make_stage(pipelines, "shade/background.comp", constants, background_class, map_set, nullptr));
+        add_lookup_constants(constants, plan.map_sets[map_set]);
+        background_.push_back(make_stage(pipelines, "shade/background.comp", constants, background_class,
+                                         maps[map_set].get(), nullptr));
         background_.back().name = "background";
     }
 }
 
 ShadePass::Stage ShadePass::make_stage(Pipelines& pipelines, const std::string& shader,
                                        const vulkan::SpecializationConstants& constants, uint32_t shade_class,
-                                       uint32_t map_set, const ReferenceBuffers* reference) {
+                                       const EnvironmentMaps* maps, const ReferenceBuffers* reference) {
     const vulkan::ComputePipeline& pipeline = pipelines.compute(shader, constants);
     Stage stage{shader, &pipeline, vulkan::DescriptorSet(pipeline), shade_class};
     const auto bind = [&](uint32_t binding, const vulkan::Buffer& buffer) {
@@ -173,8 +183,9 @@ ShadePass::Stage ShadePass::make_stage(Pipelines& pipelines, const std::string& 
     if (stage.set.has_binding(shared::BINDING_SAMPLE_TABLE))
         stage.set.bind_texel_buffer(shared::BINDING_SAMPLE_TABLE, tables_.samples_view);
     if (stage.set.has_binding(shared::BINDING_MAPS))
-        stage.set.bind(shared::BINDING_MAPS, maps_[map_set]->image().view_as(VK_IMAGE_VIEW_TYPE_CUBE_ARRAY),
-                       sampler_);
+        stage.set.bind(shared::BINDING_MAPS, maps->image().view_as(VK_IMAGE_VIEW_TYPE_CUBE_ARRAY), sampler_);
+    if (stage.set.has_binding(shared::BINDING_MAP_PAIRS))
+        stage.set.bind_texel_buffer(shared::BINDING_MAP_PAIRS, maps->pairs().get() ? maps->pairs() : unused_.pairs);
     const bool has_varying = targets && targets->has_varying;
     bind_image(shared::BINDING_SURFACE, targets ? targets->surface : unused_.surface);
     bind_image(shared::BINDING_VARYING_DIFFUSE, has_varying ? targets->varying_diffuse : unused_.varying);

@@ -34,6 +34,7 @@ struct ReferenceBuffers {
 /// What lies behind bindings that a kernel declares and a plan does not use; made once for a device.
 struct Placeholders {
     vulkan::Buffer buffer;
+    vulkan::TexelView pairs;
     vulkan::Image surface, varying;
 
     explicit Placeholders(const vulkan::DevicePointer& device);
@@ -61,12 +62,11 @@ private:
     };
 
     Stage make_stage(Pipelines& pipelines, const std::string& shader,
-                     const vulkan::SpecializationConstants& constants, uint32_t shade_class, uint32_t map_set,
-                     const ReferenceBuffers* reference);
+                     const vulkan::SpecializationConstants& constants, uint32_t shade_class,
+                     const EnvironmentMaps* maps, const ReferenceBuffers* reference);
     void dispatch(vulkan::Commands& commands, const Stage& stage, shared::ShadeRecord push) const;
 
     const ShadeTables& tables_;
-    const std::vector<std::shared_ptr<EnvironmentMaps>>& maps_;
     ShadeInputs inputs_;
     const Placeholders& unused_;
     vulkan::Sampler sampler_;
@@ -74,5 +74,8 @@ private:
     std::vector<Stage> background_;
     std::vector<Stage> tile_stages_;
 };
+
+/// Which lookup the kernel compiles, and for which size of faces.
+void add_lookup_constants(vulkan::SpecializationConstants& constants, const MapSet& set);
 
 } // namespace burnish::render

@@ -1,0 +1,33 @@
+// Which of the two implementations of a lookup (glsl/shade/map_lookup.glsl) reads the maps.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+namespace burnish {
+
+enum class MapLookup {
+    sampler, ///< the device's own
+    software ///< ours, from pairs of texels in a buffer
+};
+
+const char* map_lookup_name(MapLookup lookup);
+/// None for "auto". Throws std::invalid_argument that lists the names.
+std::optional<MapLookup> map_lookup(const std::string& name);
+
+/// Pairs of texels (glsl/shared/texel_pairs.h) of one level of a cube, and of all its levels.
+uint32_t level_pair_count(uint32_t size);
+uint64_t cube_pair_count(uint32_t face_size);
+
+/// What a device reads its maps by, and why.
+struct LookupChoice {
+    MapLookup wanted = MapLookup::sampler;
+    std::string reason = "the device has a sampler in hardware";
+    uint64_t most_pairs = 0; ///< that one of its buffers can hold
+};
+
+/// `asked`: by the user, none for the device's best.
+LookupChoice choose_lookup(bool is_software, std::optional<MapLookup> asked, uint64_t most_pairs);
+
+} // namespace burnish

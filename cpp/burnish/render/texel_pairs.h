@@ -1,0 +1,33 @@
+// Maps as our own lookup reads them: pairs of texels in a buffer (glsl/shared/texel_pairs.h).
+#pragma once
+
+#include "burnish/vulkan/commands.h"
+
+#include <memory>
+
+namespace burnish {
+
+/// All pairs of a cube array and their view as a buffer of RGBA32UI.
+struct PairBuffer {
+    vulkan::Buffer buffer;
+    vulkan::TexelView view;
+};
+
+/// Packs cube arrays into pairs. Not for several threads at once.
+class TexelPairs {
+public:
+    explicit TexelPairs(std::shared_ptr<const vulkan::Device> device);
+
+    /// Records the packing of every level that `cubes` has; values stay what they are, but the mean of three
+    /// texels at a cube's corner is rounded to half. `cubes` is a cube array of RGBA16F in
+    /// SHADER_READ_ONLY_OPTIMAL. It and this object must live until the commands are done.
+    PairBuffer record(vulkan::Commands& commands, const vulkan::Image& cubes);
+
+private:
+    std::shared_ptr<const vulkan::Device> device_;
+    vulkan::ComputePipeline pack_;
+    vulkan::Sampler sampler_;
+    vulkan::DescriptorSet set_; // of the last call
+};
+
+} // namespace burnish

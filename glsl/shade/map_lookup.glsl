@@ -1,0 +1,113 @@
+// How kernels read maps. One function, two implementations: the device's sampler, and our own lookup for CPU devices, whose
+// sampler takes most of a frame (shared/texel_pairs.h). Both are seamless and trilinear. A lookup has two halves, aim and load, so
+// that a kernel can aim several before it loads: a CPU then overlaps their loads.
+#ifndef BURNISH_SHADE_MAP_LOOKUP
+#define BURNISH_SHADE_MAP_LOOKUP
+
+#include "shade/bindings.glsl"
+#include "shared/texel_pairs.h"
+
+layout(constant_id = SPEC_LOOKUP) const uint LOOKUP = LOOKUP_SAMPLER;
+layout(constant_id = SPEC_LAST_LEVEL) const int LAST_LEVEL = 0; // of the faces: log2 of their size; pairs only
+
+layout(binding = BINDING_MAPS) uniform samplerCubeArray maps;
+layout(binding = BINDING_MAP_PAIRS, rgba32ui) uniform readonly uimageBuffer map_pairs;
+
+// Where one bilinear lookup lands.
+struct PairAim {
+    int at;        // pair above; the one below lies a pitch further
+    int pitch;
+    vec2 fraction; // toward the right texel, toward the row below
+};
+
+struct MapAim {
+    vec3 direction; // any length but zero
+    float level;
+    float layer;
+    PairAim fine, coarse;
+    float coarse_share;
+};
+
+// Pairs of all levels before this one, of size s: 6 (n + 1)(n + 2) each add up to this, since every level is half as large.
+int pairs_before(int level, int s) {
+    const int n = 1 << LAST_LEVEL;
+    return n * (8 * n + 36) - s * (8 * s + 36) + 12 * level;
+}
+
+int cube_pairs_begin(float layer) {
+    const int n = 1 << LAST_LEVEL;
+    const int pairs_of_cube = n * (8 * n + 36) - 20 + 12 * (LAST_LEVEL + 1);
+    return int(layer) * pairs_of_cube;
+}
+
+// `uv` on the face, -1..1.
+PairAim aim_pairs(vec2 uv, int face, int cube_begin, int level) {
+    int s = 1 << (LAST_LEVEL - level);
+    float half_size = 0.5 * float(s);
+    vec2 place = uv * half_size + (half_size + 0.5); // texel k lies at k + 1, behind the border
+    ivec2 texel = ivec2(place);
+    PairAim aim;
+    aim.pitch = s + 1;
+    aim.at = cube_begin + pairs_before(level, s) + (face * (s + 2) + texel.y) * aim.pitch + texel.x;
+    aim.fraction = place - vec2(texel);
+    return aim;
+}
+
+// Face that a direction meets, and where, in the orientation of the pairs. Of equal components z wins, then y.
+vec2 pair_face_uv(vec3 direction, out int face) {
+    vec3 a = abs(direction);
+    bool is_y = a.y >= a.x;
+    float side_axis = is_y ? direction.y : direction.x;
+    float side_largest = is_y ? a.y : a.x;
+    bool is_z = a.z >= side_largest;
+    float axis = is_z ? direction.z : side_axis;
+    float largest = is_z ? a.z : side_largest;
+    vec2 along = vec2(is_z || is_y ? direction.x : direction.z, is_y && !is_z ? direction.z : direction.y);
+    face = (is_z ? 4 : is_y ? 2 : 0) + (axis < 0.0 ? 1 : 0);
+    return along * (1.0 / largest);
+}
+
+MapAim aim_at_map(vec3 direction, float layer, float level) {
+    MapAim aim;
+    aim.direction = direction;
+    aim.level = level;
+    aim.layer = layer;
+    if (LOOKUP == LOOKUP_SOFTWARE) {
+        int face;
+        vec2 uv = pair_face_uv(direction, face);
+        int begin = cube_pairs_begin(layer);
+        float clamped = level > 0.0 ? level : 0.0;
+        clamped = clamped < float(LAST_LEVEL) ? clamped : float(LAST_LEVEL);
+        int fine = int(clamped);
+        aim.fine = aim_pairs(uv, face, begin, fine);
+        aim.coarse = aim_pairs(uv, face, begin, fine < LAST_LEVEL ? fine + 1 : LAST_LEVEL);
+        aim.coarse_share = clamped - float(fine);
+    }
+    return aim;
+}
+
+vec3 load_pairs(PairAim aim) {
+    uvec4 above = imageLoad(map_pairs, aim.at), below = imageLoad(map_pairs, aim.at + aim.pitch);
+    vec2 r = unpackHalf2x16(above.r), g = unpackHalf2x16(above.g), b = unpackHalf2x16(above.b);
+    r += aim.fraction.y * (unpackHalf2x16(below.r) - r);
+    g += aim.fraction.y * (unpackHalf2x16(below.g) - g);
+    b += aim.fraction.y * (unpackHalf2x16(below.b) - b);
+    vec3 left = vec3(r.x, g.x, b.x);
+    return left + aim.fraction.x * (vec3(r.y, g.y, b.y) - left);
+}
+
+vec3 load_map(MapAim aim) {
+    if (LOOKUP == LOOKUP_SAMPLER) return textureLod(maps, vec4(aim.direction, aim.layer), aim.level).rgb;
+    vec3 fine = load_pairs(aim.fine);
+    return fine + aim.coarse_share * (load_pairs(aim.coarse) - fine);
+}
+
+// Of level 0 alone.
+vec3 look_up_finest(vec3 direction, float layer) {
+    if (LOOKUP == LOOKUP_SAMPLER) return textureLod(maps, vec4(direction, layer), 0.0).rgb;
+    int face;
+    vec2 uv = pair_face_uv(direction, face);
+    return load_pairs(aim_pairs(uv, face, cube_pairs_begin(layer), 0));
+}
+
+#endif
