@@ -209,16 +209,19 @@ void bind_render(py::module_& m) {
     m.def(
         "time_shading",
         [](render::Renderer& renderer, const Scene& scene, const Camera& camera, const Sampler& sampler,
-           bool has_lookups) {
+           bool has_lookups, bool has_constants) {
             render::RenderSettings settings;
             settings.width = 1920;
             settings.height = 1080;
             settings.plan.sampler = sampler;
             settings.plan.has_lookups = has_lookups;
+            settings.plan.has_constants = has_constants;
             return report_dict(renderer.render(scene, camera, settings).report);
         },
         py::arg("device"), py::arg("scene"), py::arg("camera"), py::arg("sampler"), py::arg("has_lookups"),
-        "dict: the report of a 1920x1080 frame, whose lookups may be left out, for benchmarks.");
+        py::arg("has_constants") = true,
+        "dict: the report of a 1920x1080 frame, for benchmarks. Its lookups may be left out, and its sample tables read from a "
+        "buffer where they would be constants.");
     m.def("plan", &plan_dict, py::arg("scene"), py::arg("sampler"), py::arg("spp"), py::arg("filter"),
           py::arg("is_software"),
           "dict: passes, effects and shade classes with their reasons; nothing is rendered.");

@@ -41,7 +41,7 @@ Lookup place_lookup(mat3 frame, vec4 entry) {
         lookup.level = mip_level(2.0 * entry.w / (x * (x + 1.0)));
         lookup.weight = entry.z;
     } else {
-        lookup.level = mip_level(texels_exact(entry.w, 1.0, largest));
+        lookup.level = mip_level(texels_exact(entry.w, 1.0, 1.0 / largest));
         lookup.weight = entry.z * max(2.0 * c - 1.0, 0.0);
     }
     return lookup;

@@ -91,11 +91,11 @@ Lookup place_lookup(LobeView v, vec4 entry) {
     lookup.weight = weight * cos_i_power(cos_i, v.alpha);
     lookup.schlick = HAS_FRESNEL ? schlick_weight(og * inversesqrt(inverse_c)) : 0.0;
 
-    vec3 a = abs(direction);
-    float largest = max(max(a.x, a.y), a.z);
-    float level = mip_level(FOOTPRINT == FOOTPRINT_EXACT ? texels_exact(texel_factor, og, largest)
-                                                         : texels_published(texel_factor, v.area_term, og, largest));
-    lookup.aim = aim_at_map(direction, v.layer, level);
+    CubePlace place = place_on_cube(direction);
+    float level = mip_level(FOOTPRINT == FOOTPRINT_EXACT
+                                ? texels_exact(texel_factor, og, place.inverse_largest)
+                                : texels_published(texel_factor, v.area_term, og, place.inverse_largest));
+    lookup.aim = aim_at_map(place, v.layer, level);
     return lookup;
 }
 

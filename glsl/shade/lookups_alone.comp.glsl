@@ -5,9 +5,14 @@
 
 #include "lib/frame.glsl"
 #include "shade/map_lookup.glsl"
+#include "shared/records.h"
 
+layout(local_size_x = TILE_SIZE, local_size_y = TILE_SIZE) in;
 layout(constant_id = SPEC_SAMPLE_COUNT) const uint SAMPLE_COUNT = 1u;
 #include "shade/sample_constants.glsl"
+
+layout(push_constant) uniform Push { ShadeRecord push; }; // point_count: width
+layout(std430, binding = BINDING_RADIANCE) buffer Radiance { vec4 radiance_out[]; };
 
 #define AIM(k, aim)                                                                                                    \
     if (SAMPLE_COUNT > uint(k)) {                                                                                      \

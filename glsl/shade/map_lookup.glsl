@@ -4,8 +4,7 @@
 #ifndef BURNISH_SHADE_MAP_LOOKUP
 #define BURNISH_SHADE_MAP_LOOKUP
 
-#include "shade/bindings.glsl"
-#include "shared/texel_pairs.h"
+#include "shared/constants.h"
 
 layout(constant_id = SPEC_LOOKUP) const uint LOOKUP = LOOKUP_SAMPLER;
 layout(constant_id = SPEC_LAST_LEVEL) const int LAST_LEVEL = 0; // of the faces: log2 of their size; pairs only
@@ -40,51 +39,63 @@ int cube_pairs_begin(float layer) {
     return int(layer) * pairs_of_cube;
 }
 
-// `uv` on the face, -1..1.
-PairAim aim_pairs(vec2 uv, int face, int cube_begin, int level) {
-    int s = 1 << (LAST_LEVEL - level);
-    float half_size = 0.5 * float(s);
-    vec2 place = uv * half_size + (half_size + 0.5); // texel k lies at k + 1, behind the border
-    ivec2 texel = ivec2(place);
+// Where a direction meets the cube.
+struct CubePlace {
+    vec3 direction;        // any length but zero
+    float inverse_largest; // 1 / |direction|_inf
+    vec2 uv;               // software: on the face, -1..1, in the orientation of the pairs
+    float face;
+};
+
+// Of equal components z wins, then y.
+CubePlace place_on_cube(vec3 direction) {
+    CubePlace place;
+    place.direction = direction;
+    vec3 a = abs(direction);
+    bool is_y = a.y >= a.x;
+    float side = is_y ? a.y : a.x;
+    bool is_z = a.z >= side;
+    place.inverse_largest = 1.0 / (is_z ? a.z : side);
+    float axis = is_z ? direction.z : is_y ? direction.y : direction.x;
+    vec2 along = is_z ? direction.xy : is_y ? direction.xz : direction.zy;
+    place.uv = along * place.inverse_largest;
+    place.face = (is_z ? 4.0 : is_y ? 2.0 : 0.0) + (axis < 0.0 ? 1.0 : 0.0);
+    return place;
+}
+
+PairAim aim_pairs(CubePlace cube, int cube_begin, int level) {
+    float s = intBitsToFloat((127 + LAST_LEVEL - level) << 23);
+    const float n = float(1 << LAST_LEVEL);
+    float half_size = 0.5 * s;
+    vec2 place = cube.uv * half_size + (half_size + 0.5); // texel k lies at k + 1, behind the border
+    vec2 texel = vec2(ivec2(place));
     PairAim aim;
-    aim.pitch = s + 1;
-    aim.at = cube_begin + pairs_before(level, s) + (face * (s + 2) + texel.y) * aim.pitch + texel.x;
-    aim.fraction = place - vec2(texel);
+    aim.pitch = int(s) + 1;
+    float before = n * (8.0 * n + 36.0) - s * (8.0 * s + 36.0) + 12.0 * float(level);
+    aim.at = cube_begin + int(before + ((cube.face * (s + 2.0) + texel.y) * (s + 1.0) + texel.x));
+    aim.fraction = place - texel;
     return aim;
 }
 
-// Face that a direction meets, and where, in the orientation of the pairs. Of equal components z wins, then y.
-vec2 pair_face_uv(vec3 direction, out int face) {
-    vec3 a = abs(direction);
-    bool is_y = a.y >= a.x;
-    float side_axis = is_y ? direction.y : direction.x;
-    float side_largest = is_y ? a.y : a.x;
-    bool is_z = a.z >= side_largest;
-    float axis = is_z ? direction.z : side_axis;
-    float largest = is_z ? a.z : side_largest;
-    vec2 along = vec2(is_z || is_y ? direction.x : direction.z, is_y && !is_z ? direction.z : direction.y);
-    face = (is_z ? 4 : is_y ? 2 : 0) + (axis < 0.0 ? 1 : 0);
-    return along * (1.0 / largest);
-}
-
-MapAim aim_at_map(vec3 direction, float layer, float level) {
+MapAim aim_at_map(CubePlace place, float layer, float level) {
     MapAim aim;
-    aim.direction = direction;
+    aim.direction = place.direction;
     aim.level = level;
     aim.layer = layer;
     if (LOOKUP == LOOKUP_SOFTWARE) {
-        int face;
-        vec2 uv = pair_face_uv(direction, face);
-        int begin = cube_pairs_begin(layer);
+        float last = float(LAST_LEVEL);
         float clamped = level > 0.0 ? level : 0.0;
-        clamped = clamped < float(LAST_LEVEL) ? clamped : float(LAST_LEVEL);
+        clamped = clamped < last ? clamped : last;
         int fine = int(clamped);
-        aim.fine = aim_pairs(uv, face, begin, fine);
-        aim.coarse = aim_pairs(uv, face, begin, fine < LAST_LEVEL ? fine + 1 : LAST_LEVEL);
+        int begin = cube_pairs_begin(layer);
+        aim.fine = aim_pairs(place, begin, fine);
+        aim.coarse = aim_pairs(place, begin, fine < LAST_LEVEL ? fine + 1 : LAST_LEVEL);
         aim.coarse_share = clamped - float(fine);
     }
     return aim;
 }
+
+MapAim aim_at_map(vec3 direction, float layer, float level) { return aim_at_map(place_on_cube(direction), layer, level); }
 
 vec3 load_pairs(PairAim aim) {
     uvec4 above = imageLoad(map_pairs, aim.at), below = imageLoad(map_pairs, aim.at + aim.pitch);
@@ -105,9 +116,7 @@ vec3 load_map(MapAim aim) {
 // Of level 0 alone.
 vec3 look_up_finest(vec3 direction, float layer) {
     if (LOOKUP == LOOKUP_SAMPLER) return textureLod(maps, vec4(direction, layer), 0.0).rgb;
-    int face;
-    vec2 uv = pair_face_uv(direction, face);
-    return load_pairs(aim_pairs(uv, face, cube_pairs_begin(layer), 0));
+    return load_pairs(aim_pairs(place_on_cube(direction), cube_pairs_begin(layer), 0));
 }
 
 #endif

@@ -21,6 +21,7 @@ struct PlanSettings {
     uint32_t spp = 1;
     PyramidFilter filter = PyramidFilter::gauss6;
     bool has_lookups = true; ///< false for benchmarks: shading alone, the picture means nothing
+    bool has_constants = true; ///< false for benchmarks: every sample table is read from a buffer
     bool has_lobes = true;   ///< false for captured maps: diffuse, emission and the far environment only
     LookupChoice lookup;
 };
