@@ -17,7 +17,7 @@ vec2 albedo_row(uint begin, float cos_o) {
 }
 
 vec2 fixed_albedo(uint begin, uint width_nodes, vec3 local_o, vec2 roughness) {
-    if (width_nodes == 1u) return albedo_row(begin, local_o.z);
+    if (!HAS_TANGENT || width_nodes == 1u) return albedo_row(begin, local_o.z);
     vec2 along = local_o.xy * roughness;
     float width = sqrt(dot(along, along) / max(dot(local_o.xy, local_o.xy), 1e-30));
     float least = min(roughness.x, roughness.y);

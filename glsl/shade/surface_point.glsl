@@ -110,6 +110,7 @@ mat3 environment_from_world(MapRecord map, mat3 frame) {
 
 // The frame turned by the lobe's rotation, counter-clockwise about the normal, seen from outside.
 mat3 lobe_frame(mat3 frame, LobeRecord record) {
+    if (!HAS_TANGENT) return frame; // round lobes look the same from all sides
     return mat3(record.rotation_cos * frame[0] + record.rotation_sin * frame[1],
                 record.rotation_cos * frame[1] - record.rotation_sin * frame[0], frame[2]);
 }
