@@ -220,7 +220,8 @@ void bind_render(py::module_& m) {
         },
         py::arg("device"), py::arg("scene"), py::arg("camera"), py::arg("sampler"), py::arg("has_lookups"),
         py::arg("has_constants") = true,
-        "dict: the report of a 1920x1080 frame, for benchmarks. Its lookups may be left out, and its sample tables read from a "
+        "dict: the report of a 1920x1080 frame, for benchmarks. Its lookups may be left out, and its sample "
+        "tables read from a "
         "buffer where they would be constants.");
     m.def("plan", &plan_dict, py::arg("scene"), py::arg("sampler"), py::arg("spp"), py::arg("filter"),
           py::arg("is_software"),

@@ -6,14 +6,14 @@
 #include "shade/bindings.glsl"
 
 layout(constant_id = SPEC_CONSERVES_ENERGY) const bool CONSERVES_ENERGY = false;
-layout(std430, binding = BINDING_ALBEDO_TABLE) readonly buffer AlbedoTable { vec2 albedo_table[]; };
+layout(binding = BINDING_ALBEDO_TABLE, rg32f) uniform readonly imageBuffer albedo_table;
 
 // (E1, Es) at the lobe's view: see AlbedoTable.
 vec2 albedo_row(uint begin, float cos_o) {
     float x = sqrt(clamp(cos_o, 0.0, 1.0)) * float(ALBEDO_COS_NODES - 1u);
     float i = min(floor(x), float(ALBEDO_COS_NODES - 2u));
-    uint entry = begin + uint(i);
-    return mix(albedo_table[entry], albedo_table[entry + 1u], x - i);
+    int entry = int(begin) + int(i);
+    return mix(imageLoad(albedo_table, entry).xy, imageLoad(albedo_table, entry + 1).xy, x - i);
 }
 
 vec2 fixed_albedo(uint begin, uint width_nodes, vec3 local_o, vec2 roughness) {

@@ -2,6 +2,7 @@
 #ifndef BURNISH_SHADE_BINDINGS
 #define BURNISH_SHADE_BINDINGS
 
+#include "shade/records.glsl"
 #include "shared/constants.h"
 #include "shared/records.h"
 
@@ -20,10 +21,6 @@ layout(constant_id = SPEC_HAS_MAP_ROTATION) const bool HAS_MAP_ROTATION = false;
 layout(constant_id = SPEC_SHADE_CLASS) const uint SHADE_CLASS = 0u;
 
 layout(push_constant) uniform Push { ShadeRecord push; };
-layout(std430, binding = BINDING_VIEW) readonly buffer Views { ViewRecord view; };
-layout(std430, binding = BINDING_MATERIALS) readonly buffer Materials { MaterialRecord materials[]; };
-layout(std430, binding = BINDING_LOBES) readonly buffer Lobes { LobeRecord lobes[]; };
-layout(std430, binding = BINDING_MAP_RECORDS) readonly buffer Maps { MapRecord map_records[]; };
 layout(binding = BINDING_SURFACE, rg32ui) uniform readonly uimage2D surface_image;
 layout(binding = BINDING_VARYING_DIFFUSE, rgba16f) uniform readonly image2D varying_diffuse;
 layout(binding = BINDING_VARYING_SPECULAR, rgba16f) uniform readonly image2D varying_specular;

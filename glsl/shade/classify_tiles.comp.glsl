@@ -5,26 +5,24 @@
 #extension GL_EXT_control_flow_attributes : require
 
 #include "lib/frame.glsl"
-#include "shared/constants.h"
-#include "shared/records.h"
+#include "shade/records.glsl"
 
 layout(local_size_x = 64) in;
 layout(constant_id = SPEC_CLASS_COUNT) const uint CLASS_COUNT = 1u;
 layout(constant_id = SPEC_SHADE_CLASS) const uint BACKGROUND_CLASS = MAX_SHADE_CLASSES; // not below CLASS_COUNT: no background
 
 layout(push_constant) uniform Push { ShadeRecord push; };
-layout(std430, binding = BINDING_VIEW) readonly buffer Views { ViewRecord view; };
-layout(std430, binding = BINDING_MATERIALS) readonly buffer Materials { MaterialRecord materials[]; };
 layout(binding = BINDING_SURFACE, rg32ui) uniform readonly uimage2D surface_image;
 layout(std430, binding = BINDING_TILES) writeonly buffer Tiles { uint tiles[]; };
 layout(std430, binding = BINDING_TILE_COUNTS) buffer TileCounts { uvec4 tile_counts[]; };
 
 uint class_of(uvec2 surface) {
     if (!has_surface(surface)) return BACKGROUND_CLASS;
-    return BACKGROUND_CLASS == 1u ? 0u : materials[unpack_material(surface)].shade_class; // one class needs no look-up
+    return BACKGROUND_CLASS == 1u ? 0u : load_material(unpack_material(surface)).shade_class; // one class needs no look-up
 }
 
 void main() {
+    ViewRecord view = load_view();
     uvec2 size = uvec2(view.width_px, view.height_px);
     uint tiles_per_row = (size.x + TILE_SIZE - 1u) / TILE_SIZE;
     uint index = gl_GlobalInvocationID.x;

@@ -4,6 +4,7 @@
 //                batch, so that batches are independent and their spread gives the standard error.
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_control_flow_attributes : require
 
 #include "lib/cube_map.glsl"
 #include "lib/kurt_lobe.glsl"
@@ -101,12 +102,12 @@ vec3 progressive(LobeView v, MapRecord map, uint seed) {
 
 void main() {
     PointToShade point = load_point();
-    MaterialRecord material = materials[point.material];
-    MapRecord map = map_records[material.map];
+    MaterialRecord material = load_material(point.material);
+    MapRecord map = load_map_record(material.map);
 
     vec3 batch = vec3(0.0);
     for (uint which = 0u; which < LOBE_COUNT; ++which) {
-        LobeRecord record = lobes[material.lobe_begin + which];
+        LobeRecord record = load_lobe(material.lobe_begin + which);
         LobeView v;
         v.lobe = point_lobe(point, material.lobe_begin + which, which);
         mat3 frame = lobe_frame(point.frame, record);

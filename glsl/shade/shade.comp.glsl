@@ -12,7 +12,7 @@
 
 vec3 shade_lobe(PointToShade point, MapRecord map, uint lobe_index, uint which) {
     SurfaceLobe lobe = point_lobe(point, lobe_index, which);
-    LobeRecord record = lobes[lobe_index];
+    LobeRecord record = load_lobe(lobe_index);
     LobeView v;
     mat3 frame = lobe_frame(point.frame, record);
     v.local_o = point.omega_o * frame;
@@ -45,8 +45,8 @@ vec3 shade_lobe(PointToShade point, MapRecord map, uint lobe_index, uint which) 
 
 void main() {
     PointToShade point = load_point();
-    MaterialRecord material = materials[point.material];
-    MapRecord map = map_records[material.map];
+    MaterialRecord material = load_material(point.material);
+    MapRecord map = load_map_record(material.map);
 
     vec3 radiance = vec3(0.0);
     if (HAS_DIFFUSE)

@@ -20,12 +20,12 @@ struct PointToShade {
     vec3 omega_o;  // world, unit, toward the eye
 };
 
-vec3 pixel_ray(vec2 pixel) {
+vec3 pixel_ray(ViewRecord view, vec2 pixel) {
     return normalize(view.ray_corner.xyz + (pixel.x + 0.5) * view.ray_dx.xyz + (pixel.y + 0.5) * view.ray_dy.xyz);
 }
 
 // The pixel of this invocation in the list of its class; false outside the picture or past the list's end.
-bool locate_pixel(out ivec2 pixel) {
+bool locate_pixel(ViewRecord view, out ivec2 pixel) {
     uint tile_index = gl_WorkGroupID.y * GROUPS_PER_ROW + gl_WorkGroupID.x;
     uint tile = tiles[SHADE_CLASS * push.tile_capacity + min(tile_index, push.tile_capacity - 1u)];
     pixel = ivec2(uvec2(tile & 0xffffu, tile >> 16) * TILE_SIZE + gl_LocalInvocationID.xy);
@@ -52,12 +52,13 @@ PointToShade load_point() {
         point.omega_o = given.omega_o.xyz;
         return point;
     }
-    bool is_inside = locate_pixel(point.pixel);
+    ViewRecord view = load_view();
+    bool is_inside = locate_pixel(view, point.pixel);
     uvec2 surface = imageLoad(surface_image, point.pixel).xy;
     point.index = uint(point.pixel.y) * view.width_px + uint(point.pixel.x);
     point.material = has_surface(surface) ? unpack_material(surface) : 0u;
-    point.is_mine = is_inside && has_surface(surface) && materials[point.material].shade_class == SHADE_CLASS;
-    point.omega_o = -pixel_ray(vec2(point.pixel));
+    point.is_mine = is_inside && has_surface(surface) && load_material(point.material).shade_class == SHADE_CLASS;
+    point.omega_o = -pixel_ray(view, vec2(point.pixel));
     if (HAS_TANGENT) {
         mat3 frame = unpack_frame(surface);
         float handedness = dot(cross(frame[2], frame[0]), frame[1]);
@@ -69,11 +70,11 @@ PointToShade load_point() {
 }
 
 vec3 point_diffuse(PointToShade point) {
-    return HAS_VARYING ? imageLoad(varying_diffuse, point.pixel).rgb : materials[point.material].diffuse.rgb;
+    return HAS_VARYING ? imageLoad(varying_diffuse, point.pixel).rgb : load_material(point.material).diffuse.rgb;
 }
 
 vec3 point_emissive(PointToShade point) {
-    return HAS_VARYING ? imageLoad(varying_emissive, point.pixel).rgb : materials[point.material].emissive.rgb;
+    return HAS_VARYING ? imageLoad(varying_emissive, point.pixel).rgb : load_material(point.material).emissive.rgb;
 }
 
 // Lobe `which` of the point. With varying materials lobe 0 is the base, lobe 1 the clear coat.
@@ -86,7 +87,7 @@ SurfaceLobe point_lobe(PointToShade point, uint lobe_index, uint which) {
         lobe.roughness = vec2(imageLoad(varying_diffuse, point.pixel).a, specular.a);
         return lobe;
     }
-    LobeRecord record = lobes[lobe_index];
+    LobeRecord record = load_lobe(lobe_index);
     lobe.specular = record.specular.rgb;
     lobe.grazing = record.grazing.rgb;
     lobe.roughness = vec2(record.specular.a, record.grazing.a);
@@ -110,7 +111,6 @@ mat3 environment_from_world(MapRecord map, mat3 frame) {
 
 // The frame turned by the lobe's rotation, counter-clockwise about the normal, seen from outside.
 mat3 lobe_frame(mat3 frame, LobeRecord record) {
-    if (!HAS_TANGENT) return frame; // round lobes look the same from all sides
     return mat3(record.rotation_cos * frame[0] + record.rotation_sin * frame[1],
                 record.rotation_cos * frame[1] - record.rotation_sin * frame[0], frame[2]);
 }

@@ -7,6 +7,11 @@
 
 SHARED_BEGIN
 
+// Rows of 16 bytes: shade kernels read records by them (shade/records.glsl).
+SHARED_CONST uint LOBE_ROWS = 5u;
+SHARED_CONST uint MATERIAL_ROWS = 3u;
+SHARED_CONST uint MAP_ROWS = 21u;
+
 // One Kurt lobe of one material.
 struct LobeRecord {
     vec4 specular; // rgb: weight * r0; a: roughness along the tangent (Beckmann slope)
@@ -24,7 +29,7 @@ struct LobeRecord {
     uint pad1;
     uint pad2;
 };
-SHARED_SIZE(LobeRecord, 80)
+SHARED_SIZE(LobeRecord, 16 * LOBE_ROWS)
 
 // One material seen with one map.
 struct MaterialRecord {
@@ -35,7 +40,7 @@ struct MaterialRecord {
     uint map;         // index of its MapRecord
     uint shade_class; // which specialised pipeline shades it
 };
-SHARED_SIZE(MaterialRecord, 48)
+SHARED_SIZE(MaterialRecord, 16 * MATERIAL_ROWS)
 
 // One environment map: where it lies and how it is turned. Columns of the matrix are rows of env_from_world.
 struct MapRecord {
@@ -49,7 +54,7 @@ struct MapRecord {
     uint alias_begin;     // first entry of its TexelAlias table
     vec4 suns[2 * MAX_SUNS]; // each: direction, environment space, and its variance; rgb: flux
 };
-SHARED_SIZE(MapRecord, 336)
+SHARED_SIZE(MapRecord, 16 * MAP_ROWS)
 
 // The view a frame is drawn from. A pixel's ray is ray_corner + (x + .5) ray_dx + (y + .5) ray_dy, x right, y down.
 struct ViewRecord {

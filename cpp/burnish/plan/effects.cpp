@@ -188,16 +188,15 @@ void add_effect_lines(const Scene& scene, Plan& plan) {
                                           [](const auto& one) { return one->rotation != glm::mat3(1.0f); });
     plan.effects.push_back({"map rotation", has_rotation,
                             has_rotation ? "an environment is turned" : "no environment is turned"});
-    const auto software = std::count_if(plan.map_sets.begin(), plan.map_sets.end(), [](const MapSet& set) {
-        return set.lookup == MapLookup::software;
-    });
-    const bool is_too_large = plan.settings.lookup.wanted == MapLookup::software &&
-                              size_t(software) < plan.map_sets.size();
-    plan.effects.push_back({"software lookup", software > 0,
-                            is_too_large ? message("maps of ", plan.map_sets.size() - size_t(software), " of ",
-                                                   plan.map_sets.size(),
-                                                   " sizes are too large for one of the device's buffers")
-                                         : plan.settings.lookup.reason});
+    const auto software = std::count_if(plan.map_sets.begin(), plan.map_sets.end(),
+                                        [](const MapSet& set) { return set.lookup == MapLookup::software; });
+    const bool is_too_large =
+        plan.settings.lookup.wanted == MapLookup::software && size_t(software) < plan.map_sets.size();
+    plan.effects.push_back(
+        {"software lookup", software > 0,
+         is_too_large ? message("maps of ", plan.map_sets.size() - size_t(software), " of ",
+                                plan.map_sets.size(), " sizes are too large for one of the device's buffers")
+                      : plan.settings.lookup.reason});
     plan.effects.push_back({"background", plan.has_background,
                             plan.has_background     ? "the environment is shown where no object is"
                             : scene.show_background ? "the scene has no environment"

@@ -139,7 +139,8 @@ ShadeTraits traits_of(const Scene& scene, const Plan& plan, const MaterialInstan
         traits.table = TableForm::prefiltered;
     } else if (traits.has_varying) {
         traits.table = TableForm::scaled;
-    } else if (plan.settings.has_constants && traits.lobe_count == 1 && fits_into_constants(plan.settings.sampler)) {
+    } else if (plan.settings.has_constants && traits.lobe_count == 1 &&
+               fits_into_constants(plan.settings.sampler)) {
         traits.table = TableForm::constant;
         traits.roughness = material.lobes[0].roughness;
     } else {

@@ -20,9 +20,9 @@ struct PlanSettings {
     Sampler sampler = Regular{};
     uint32_t spp = 1;
     PyramidFilter filter = PyramidFilter::gauss6;
-    bool has_lookups = true; ///< false for benchmarks: shading alone, the picture means nothing
+    bool has_lookups = true;   ///< false for benchmarks: shading alone, the picture means nothing
     bool has_constants = true; ///< false for benchmarks: every sample table is read from a buffer
-    bool has_lobes = true;   ///< false for captured maps: diffuse, emission and the far environment only
+    bool has_lobes = true;     ///< false for captured maps: diffuse, emission and the far environment only
     LookupChoice lookup;
 };
 

@@ -26,7 +26,7 @@ std::vector<double> Renderer::time_lookups(const std::shared_ptr<const Environme
     const vulkan::ComputePipeline& pipeline = pipelines_.compute("shade/lookups_alone.comp", constants);
     vulkan::DescriptorSet set(pipeline);
     set.bind(shared::BINDING_MAPS, maps.image().view_as(VK_IMAGE_VIEW_TYPE_CUBE_ARRAY), cube_sampler)
-        .bind_texel_buffer(shared::BINDING_MAP_PAIRS, maps.pairs().get() ? maps.pairs() : placeholders_.pairs)
+        .bind_texel_buffer(shared::BINDING_MAP_PAIRS, maps.pairs().get() ? maps.pairs() : placeholders_.rows)
         .bind(shared::BINDING_RADIANCE, radiance);
     shared::ShadeRecord push{};
     push.point_count = width;

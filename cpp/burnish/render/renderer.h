@@ -98,7 +98,7 @@ private:
     std::mutex mutex_;
     Pipelines pipelines_;
     Pyramid pyramid_;
-    std::unique_ptr<Prefilter> prefilter_; // once a frame calls for it
+    std::unique_ptr<Prefilter> prefilter_;    // once a frame calls for it
     std::unique_ptr<TexelPairs> texel_pairs_; // likewise
     Placeholders placeholders_;
     TableCache tables_;

@@ -110,7 +110,7 @@ void add_lookup_constants(vulkan::SpecializationConstants& constants, const MapS
 
 Placeholders::Placeholders(const vulkan::DevicePointer& device)
     : buffer(device, 256, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_STORAGE_TEXEL_BUFFER_BIT),
-      pairs(vulkan::texel_view(buffer, VK_FORMAT_R32G32B32A32_UINT)),
+      rows(vulkan::texel_view(buffer, VK_FORMAT_R32G32B32A32_UINT)),
       surface(one_texel(device, VK_FORMAT_R32G32_UINT)),
       varying(one_texel(device, VK_FORMAT_R16G16B16A16_SFLOAT)) {}
 
@@ -128,7 +128,8 @@ ShadePass::ShadePass(Pipelines& pipelines, const Plan& plan, const ShadeTables& 
             add_pattern_constants(constants, traits, plan.settings, tables.class_tables[k]);
         add_lookup_constants(constants, plan.map_sets[traits.map_set]);
         const std::string shader = reference ? "shade/reference.comp" : "shade/shade.comp";
-        classes_.push_back(make_stage(pipelines, shader, constants, k, maps[traits.map_set].get(), reference));
+        classes_.push_back(
+            make_stage(pipelines, shader, constants, k, maps[traits.map_set].get(), reference));
         classes_.back().name = message(reference ? "reference " : "shade ", k);
     }
     if (is_points) return;
@@ -139,8 +140,10 @@ ShadePass::ShadePass(Pipelines& pipelines, const Plan& plan, const ShadeTables& 
     tile_constants.set(shared::SPEC_CLASS_COUNT, class_count);
     vulkan::SpecializationConstants finish_constants = tile_constants;
     tile_constants.set(shared::SPEC_SHADE_CLASS, background_class);
-    tile_stages_.push_back(make_stage(pipelines, "shade/classify_tiles.comp", tile_constants, 0, nullptr, nullptr));
-    tile_stages_.push_back(make_stage(pipelines, "shade/finish_tiles.comp", finish_constants, 0, nullptr, nullptr));
+    tile_stages_.push_back(
+        make_stage(pipelines, "shade/classify_tiles.comp", tile_constants, 0, nullptr, nullptr));
+    tile_stages_.push_back(
+        make_stage(pipelines, "shade/finish_tiles.comp", finish_constants, 0, nullptr, nullptr));
     if (plan.has_background) {
         vulkan::SpecializationConstants constants;
         const bool is_turned = plan.environments[0]->rotation != glm::mat3(1.0f);
@@ -164,15 +167,20 @@ ShadePass::Stage ShadePass::make_stage(Pipelines& pipelines, const std::string& 
     const auto bind = [&](uint32_t binding, const vulkan::Buffer& buffer) {
         if (stage.set.has_binding(binding)) stage.set.bind(binding, buffer);
     };
+    const auto bind_texels = [&](uint32_t binding, const vulkan::TexelView& view) {
+        if (stage.set.has_binding(binding)) stage.set.bind_texel_buffer(binding, view);
+    };
     const auto bind_image = [&](uint32_t binding, const vulkan::Image& image) {
         if (stage.set.has_binding(binding)) stage.set.bind_storage_image(binding, image.layer_view(0, 0));
     };
     const FrameTargets* targets = inputs_.targets;
-    bind(shared::BINDING_VIEW, targets ? targets->view : unused_.buffer);
-    bind(shared::BINDING_MATERIALS, tables_.materials);
-    bind(shared::BINDING_LOBES, tables_.lobes);
-    bind(shared::BINDING_MAP_RECORDS, tables_.map_records);
-    bind(shared::BINDING_ALBEDO_TABLE, tables_.albedo);
+    bind_texels(shared::BINDING_VIEW, targets ? targets->view_rows : unused_.rows);
+    bind_texels(shared::BINDING_MATERIALS, tables_.material_rows);
+    bind_texels(shared::BINDING_LOBES, tables_.lobe_rows);
+    bind_texels(shared::BINDING_MAP_RECORDS, tables_.map_rows);
+    bind_texels(shared::BINDING_SAMPLE_TABLE, tables_.sample_texels);
+    bind_texels(shared::BINDING_ALBEDO_TABLE, tables_.albedo_texels);
+    bind_texels(shared::BINDING_MAP_PAIRS, maps && maps->pairs().get() ? maps->pairs() : unused_.rows);
     bind(shared::BINDING_POINTS, inputs_.points ? *inputs_.points : unused_.buffer);
     bind(shared::BINDING_TILES, targets ? targets->tiles : unused_.buffer);
     bind(shared::BINDING_TILE_COUNTS, targets ? targets->tile_counts : unused_.buffer);
@@ -180,12 +188,8 @@ ShadePass::Stage ShadePass::make_stage(Pipelines& pipelines, const std::string& 
     bind(shared::BINDING_COUNTERS, *inputs_.counters);
     bind(shared::BINDING_STATISTICS, reference ? reference->statistics : unused_.buffer);
     bind(shared::BINDING_TEXEL_ALIAS, reference && reference->alias ? *reference->alias : unused_.buffer);
-    if (stage.set.has_binding(shared::BINDING_SAMPLE_TABLE))
-        stage.set.bind_texel_buffer(shared::BINDING_SAMPLE_TABLE, tables_.samples_view);
     if (stage.set.has_binding(shared::BINDING_MAPS))
         stage.set.bind(shared::BINDING_MAPS, maps->image().view_as(VK_IMAGE_VIEW_TYPE_CUBE_ARRAY), sampler_);
-    if (stage.set.has_binding(shared::BINDING_MAP_PAIRS))
-        stage.set.bind_texel_buffer(shared::BINDING_MAP_PAIRS, maps->pairs().get() ? maps->pairs() : unused_.pairs);
     const bool has_varying = targets && targets->has_varying;
     bind_image(shared::BINDING_SURFACE, targets ? targets->surface : unused_.surface);
     bind_image(shared::BINDING_VARYING_DIFFUSE, has_varying ? targets->varying_diffuse : unused_.varying);

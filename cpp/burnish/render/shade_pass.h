@@ -34,7 +34,7 @@ struct ReferenceBuffers {
 /// What lies behind bindings that a kernel declares and a plan does not use; made once for a device.
 struct Placeholders {
     vulkan::Buffer buffer;
-    vulkan::TexelView pairs;
+    vulkan::TexelView rows;
     vulkan::Image surface, varying;
 
     explicit Placeholders(const vulkan::DevicePointer& device);

@@ -154,11 +154,10 @@ shared::MapRecord map_record(const Environment& environment, uint32_t layer,
 }
 
 template <typename T>
-vulkan::Buffer storage(const vulkan::DevicePointer& device, std::vector<T>& entries,
-                       VkBufferUsageFlags usage = 0) {
+vulkan::Buffer storage(const vulkan::DevicePointer& device, std::vector<T>& entries) {
     if (entries.empty()) entries.emplace_back(); // a binding must have something behind it
     return vulkan::make_buffer(device, std::as_bytes(std::span(entries)),
-                               usage | VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
+                               VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_STORAGE_TEXEL_BUFFER_BIT);
 }
 
 } // namespace
@@ -282,11 +281,15 @@ ShadeTables make_shade_tables(const vulkan::DevicePointer& device, const Scene& 
         tables.samples_used.push_back(used.empty() ? "" : used + (traits.lobe_count > 1 ? " a lobe" : ""));
     }
     tables.materials = storage(device, materials);
+    tables.material_rows = vulkan::texel_view(tables.materials, VK_FORMAT_R32G32B32A32_UINT);
     tables.lobes = storage(device, lobes);
+    tables.lobe_rows = vulkan::texel_view(tables.lobes, VK_FORMAT_R32G32B32A32_UINT);
     tables.map_records = storage(device, maps);
-    tables.samples = storage(device, writer.sample_entries, VK_BUFFER_USAGE_STORAGE_TEXEL_BUFFER_BIT);
-    tables.samples_view = vulkan::texel_view(tables.samples, VK_FORMAT_R32G32B32A32_SFLOAT);
+    tables.map_rows = vulkan::texel_view(tables.map_records, VK_FORMAT_R32G32B32A32_UINT);
+    tables.samples = storage(device, writer.sample_entries);
+    tables.sample_texels = vulkan::texel_view(tables.samples, VK_FORMAT_R32G32B32A32_SFLOAT);
     tables.albedo = storage(device, writer.albedo_entries);
+    tables.albedo_texels = vulkan::texel_view(tables.albedo, VK_FORMAT_R32G32_SFLOAT);
     return tables;
 }
 

@@ -42,7 +42,7 @@ private:
 /// The buffers of one plan, and the sample table of each class of constant form.
 struct ShadeTables {
     vulkan::Buffer materials, lobes, map_records, samples, albedo;
-    vulkan::TexelView samples_view;
+    vulkan::TexelView material_rows, lobe_rows, map_rows, sample_texels, albedo_texels;
     std::vector<SampleTable> class_tables; ///< by class; of other forms empty
     std::vector<std::string> samples_used; ///< by class: "19 (budget 20)", one text for each lobe, joined
 };

@@ -23,6 +23,7 @@ struct FrameTargets {
     vulkan::Buffer tile_counts; ///< uvec4 a class
     vulkan::Buffer counters;
     vulkan::Buffer view;
+    vulkan::TexelView view_rows;
     uint32_t tile_capacity = 0;
 
     FrameTargets(const vulkan::DevicePointer& device, uint32_t width, uint32_t height, bool has_varying,

@@ -33,8 +33,8 @@ PairBuffer TexelPairs::record(vulkan::Commands& commands, const vulkan::Image& c
         const uint32_t size = settings.width >> level;
         const shared::PackRecord push{level, size, begin, uint32_t(cube_pairs)};
         const uint32_t per_group = pack_.local_size()[0];
-        commands.dispatch(pack_, set_, vulkan::push_bytes(push), (size + 1 + per_group - 1) / per_group, size + 2,
-                          settings.layers);
+        commands.dispatch(pack_, set_, vulkan::push_bytes(push), (size + 1 + per_group - 1) / per_group,
+                          size + 2, settings.layers);
         begin += level_pair_count(size);
     }
     commands.barrier();

@@ -42,11 +42,11 @@ def test_texels_exact(device, directions, rng):
     cos_d[::2] = rng.uniform(0, 1, count)[::2]
     factor = (face_texels * area / 14 * cos_h).astype(np.float32)
     cos_d_hz = (cos_d / cos_h).astype(np.float32)
-    largest = np.max(np.abs(directions), axis=-1)
-    actual = probe(device, "texels_exact", (factor, cos_d_hz, largest))[:, 0, 0]
+    inverse_largest = (1 / np.max(np.abs(directions), axis=-1)).astype(np.float32)
+    actual = probe(device, "texels_exact", (factor, cos_d_hz, inverse_largest))[:, 0, 0]
     # The factors as float32 has them; a pattern's constants go in and out of `lobe_area`.
     expected = footprint.exact_texels(cos_d_hz.astype(float), directions, 1.0, 1, 1) * factor
-    # A quotient, three products, and three times the rounding of the unit direction's length.
+    # Four products, and three times the rounding of the inverse and of the unit direction's length.
     allowed = 7 * ULP * expected + LEAST_NORMAL
     assert_close(
         "texels_exact", actual, expected, allowed, direction=directions, factor=factor, cos_d_hz=cos_d_hz
@@ -70,16 +70,16 @@ def test_texels_published(device, directions, rng):
     term = (10.0 ** rng.uniform(-6, 0, count)).astype(np.float32)
     cosine = (10.0 ** rng.uniform(-6, 0, count)).astype(np.float32)
     cosine[:3] = 1e-6, 1.0, 20.0
-    largest = np.max(np.abs(directions), axis=-1)
-    actual = probe(device, "texels_published", (factor, term, cosine, largest))[:, 0, 0]
+    inverse_largest = (1 / np.max(np.abs(directions), axis=-1)).astype(np.float32)
+    actual = probe(device, "texels_published", (factor, term, cosine, inverse_largest))[:, 0, 0]
     expected = footprint.published_texels(cosine, directions, term, 1, 4) * factor
-    # Two products, a quotient, and the unit direction's length.
-    allowed = 6 * ULP * expected
+    # Two products, a quotient, and the roundings of the inverse and of the unit direction's length.
+    allowed = 7 * ULP * expected
     assert_close("texels_published", actual, expected, allowed, factor=factor, term=term, cosine=cosine)
 
 
 def test_texels_published_stays_finite_at_grazing_half_vectors(device):
     cosine = np.array([1e-6, 1e-8, 0.0, -0.5], np.float32)
-    factor, term, largest = np.float32(2), np.float32(0.5), np.float32(0.8)
-    actual = probe(device, "texels_published", (factor, term, cosine, largest))[:, 0, 0]
+    factor, term, inverse_largest = np.float32(2), np.float32(0.5), np.float32(1.25)
+    actual = probe(device, "texels_published", (factor, term, cosine, inverse_largest))[:, 0, 0]
     np.testing.assert_allclose(actual, 1 / (0.8 * 1e-6), rtol=6 * ULP)

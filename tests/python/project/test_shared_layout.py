@@ -1,6 +1,7 @@
 """Structs of glsl/shared lie in memory as the shaders see them: SPIR-V offsets against C++ offsetof."""
 
 import os
+import re
 import struct
 from collections import defaultdict
 from pathlib import Path
@@ -11,6 +12,11 @@ REPOSITORY = Path(__file__).resolve().parents[3]
 MAGIC = 0x07230203
 OP_NAME, OP_MEMBER_NAME, OP_MEMBER_DECORATE = 5, 6, 72
 DECORATION_OFFSET = 35
+# Shade kernels load these as rows of 16 bytes, which SPIR-V does not know as members.
+LOADED_BY_ROWS = {"LobeRecord", "MapRecord", "MaterialRecord"}
+WHOLE_ROW = re.compile(r"\w+\.(\w+)(?:\[k\])? = uintBitsToFloat\(ROW\(\w+, \w+, (\d+)(?: \+ k)?\)\);")
+NEXT_ROW = re.compile(r"row = ROW\(\w+, \w+, (\d+)\);")
+PART_OF_ROW = re.compile(r"\w+\.(\w+) = (?:uintBitsToFloat\()?row\.([xyzw])\)?;")
 
 
 def instructions(binary):
@@ -82,7 +88,23 @@ def test_shared_structs_lie_as_shaders_see_them(shaders, expected):
 def test_every_shared_struct_is_in_some_shader(shaders, expected):
     seen = set().union(*(mismatches(expected, path.name, path.read_bytes())[1] for path in shaders))
     assert expected
-    assert not expected.keys() - seen
+    assert expected.keys() - seen == LOADED_BY_ROWS
+
+
+@pytest.mark.parametrize("name", sorted(LOADED_BY_ROWS))
+def test_records_are_loaded_from_where_they_lie(expected, name):
+    text = (REPOSITORY / "glsl/shade/records.glsl").read_text()
+    body = text.split(f"\n{name} load_")[1].split("return")[0]
+    offsets, row = {}, None
+    for line in body.splitlines():
+        if whole := WHOLE_ROW.search(line):
+            offsets[whole[1]] = 16 * int(whole[2])
+        elif part := PART_OF_ROW.search(line):
+            offsets[part[1]] = 16 * row + 4 * "xyzw".index(part[2])
+        elif following := NEXT_ROW.search(line):
+            row = int(following[1])
+    fields = {field: offset for field, offset in expected[name].items() if not field.startswith("pad")}
+    assert offsets == fields
 
 
 def test_every_struct_of_the_shared_headers_is_exported(expected):
