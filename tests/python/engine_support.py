@@ -10,6 +10,18 @@ def unit(vectors):
     return vectors / np.linalg.norm(vectors, axis=-1, keepdims=True)
 
 
+# Hardware rounds the weights of a lookup, along x, along y and between levels, to 8 bits.
+HARDWARE_WEIGHTS = 3 * 2.0**-9
+# Hardware moves the corners of triangles to a grid of this many pixels, and what it interpolates with them.
+HARDWARE_GRID = 2.0**-8
+
+
+def lookup_error(device, brightest):
+    """Most that rounded weights may add to a lookup of a map whose brightest texel is `brightest`."""
+    is_exact = device.is_software or device.lookup == "software"
+    return 0.0 if is_exact else HARDWARE_WEIGHTS * float(brightest)
+
+
 def directions(array):
     """Return the array as `burnish.shade` takes it."""
     return np.ascontiguousarray(array, np.float32)

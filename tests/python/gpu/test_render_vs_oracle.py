@@ -9,12 +9,15 @@ import pytest
 
 import burnish
 from burnish.oracle.render import render as oracle_render
-from engine_support import oracle_camera, oracle_objects
+from engine_support import HARDWARE_GRID, oracle_camera, oracle_objects
 from image_compare import assert_pictures_match
 
 SIZE = (96, 128)
 # Of float32 vertices that round to other sides of a pixel's centre: pixels of the silhouette, one in fifty.
 SILHOUETTE_SHARE = 0.02
+# Hardware moves what it interpolates by a share of a pixel, and rounds the weights of its lookups: under
+# discs of 3000 that is this much of a picture.
+HARDWARE_RMSE = 1e-2
 ROUND = burnish.KurtLobe(roughness=(0.1, 0.1))
 BRUSHED = burnish.KurtLobe(roughness=(0.2, 0.075))
 SYMMETRIC = burnish.Regular(normalization="published")
@@ -27,6 +30,14 @@ def silhouette(coverage):
     return coverage & ~inner
 
 
+def change_beside(values):
+    """Largest change from each pixel to its four neighbours, of those that are covered; (h, w)."""
+    padded = np.pad(values, ((1, 1), (1, 1), (0, 0)), constant_values=np.nan)
+    beside = [padded[:-2, 1:-1], padded[2:, 1:-1], padded[1:-1, :-2], padded[1:-1, 2:]]
+    change = np.stack([np.linalg.norm(np.nan_to_num(other - values), axis=-1) for other in beside])
+    return change.max(axis=0)
+
+
 def compare_frames(name, frame, expected, rmse, scale=1.0):
     """Colour where both agree on what is covered, and the rest of the frame; `scale`: size of the scene."""
     covered, wanted = frame.alpha > 0, expected.alpha > 0
@@ -36,13 +47,18 @@ def compare_frames(name, frame, expected, rmse, scale=1.0):
     both = covered & wanted
     assert both.sum() > 200
     # Meshes that overlap in the picture may swap at a pixel: those show in the depth and are few.
-    off = np.abs(frame.depth[both] - expected.depth[both]) > 1e-4 * scale
+    grid = 0.0 if frame.report.device["is_software"] else HARDWARE_GRID
+    shift = grid * change_beside(np.where(wanted, expected.depth, np.nan)[..., None])[both]
+    off = np.abs(frame.depth[both] - expected.depth[both]) > 1e-4 * scale + shift
     assert off.sum() <= 0.002 * both.sum() + 1, f"{off.sum()} of {both.sum()} depths are off"
     same = both.copy()
     same[both] = ~off
     turned = np.linalg.norm(frame.normal[same] - expected.normal[same], axis=-1)
     # Rasterisers move vertices by up to 1/512 pixel: it shows at the rims of small triangles.
-    assert np.mean(turned > 2e-4) <= 1e-3 and turned.max() <= 2e-3, f"a normal is off by {turned.max()}"
+    shift = grid * change_beside(np.where(wanted[..., None], expected.normal, np.nan))[same]
+    assert np.mean(turned > 2e-4 + shift) <= 1e-3, f"{np.sum(turned > 2e-4 + shift)} normals are off"
+    assert (turned <= 2e-3 + shift).all(), f"a normal is off by {turned.max()}"
+    rmse = max(rmse, HARDWARE_RMSE) if grid > 0 else rmse
     assert np.isinf(frame.depth[~covered]).all() and not frame.normal[~covered].any()
     assert_pictures_match(frame.color, expected.color, name, rmse, where=same | ~(covered | wanted))
     assert_pictures_match(frame.color, expected.color, name + " objects", rmse, where=same)
