@@ -136,11 +136,16 @@ def test_many_materials_read_their_samples_from_a_buffer(device, many_materials,
     np.testing.assert_allclose(frame.color[both], single.color[both], rtol=1e-4)
 
 
+def by_name(effects):
+    """All but why maps are read as they are: a device may have been asked for it, a plan is not."""
+    return {one["name"]: one for one in effects if one["name"] != "software lookup"}
+
+
 def test_frame_reports_what_the_plan_said(device, spots64):
     scene = scene_of(material(LOBE, diffuse=0.2), material(LOBE, emissive=2.0), environment=spots64)
     plan = plan_of(scene, spp=2, is_software=device.lookup == "software")
     report = burnish.render(scene, size=(24, 32), spp=2, device=device).report
-    assert report.effects == plan["effects"]
+    assert by_name(report.effects) == by_name(plan["effects"])
     assert [one["effects"] for one in report.classes] == [one["effects"] for one in plan["classes"]]
     ran = {entry["name"] for entry in report.passes}
     # The map's levels may be there from an earlier frame.

@@ -18,6 +18,7 @@ SILHOUETTE_SHARE = 0.02
 # Hardware moves what it interpolates by a share of a pixel, and rounds the weights of its lookups: under
 # discs of 3000 that is this much of a picture.
 HARDWARE_RMSE = 1e-2
+HARDWARE_RIM = 2e-2  # of a normal, where a triangle is thinner than a pixel
 ROUND = burnish.KurtLobe(roughness=(0.1, 0.1))
 BRUSHED = burnish.KurtLobe(roughness=(0.2, 0.075))
 SYMMETRIC = burnish.Regular(normalization="published")
@@ -57,7 +58,7 @@ def compare_frames(name, frame, expected, rmse, scale=1.0):
     # Rasterisers move vertices by up to 1/512 pixel: it shows at the rims of small triangles.
     shift = grid * change_beside(np.where(wanted[..., None], expected.normal, np.nan))[same]
     assert np.mean(turned > 2e-4 + shift) <= 1e-3, f"{np.sum(turned > 2e-4 + shift)} normals are off"
-    assert (turned <= 2e-3 + shift).all(), f"a normal is off by {turned.max()}"
+    assert turned.max() <= (HARDWARE_RIM if grid > 0 else 2e-3), f"a normal is off by {turned.max()}"
     rmse = max(rmse, HARDWARE_RMSE) if grid > 0 else rmse
     assert np.isinf(frame.depth[~covered]).all() and not frame.normal[~covered].any()
     assert_pictures_match(frame.color, expected.color, name, rmse, where=same | ~(covered | wanted))

@@ -47,7 +47,7 @@ def judge_pyramids(numbers: Numbers) -> list[Verdict]:
                 f"shading one frame of {TYPICAL_COUNT} samples, every pixel glossy.",
                 "abstract",
                 share < 1,
-                f"{filtering:.1f} ms against {full[0]:.0f} ms",
+                f"{filtering:.3g} ms against {full[0]:.3g} ms",
                 f"{share:.2f} of the frame's shading",
             )
         )
