@@ -102,23 +102,19 @@ std::vector<py::ssize_t> picture_shape(const render::Frame& frame, py::ssize_t c
     return shape;
 }
 
-/// Radiance without its alpha: numpy users expect three channels side by side.
-py::array_t<float> color_of(const render::Frame& frame) {
-    std::vector<float> values(frame.radiance.size() * 3);
-    for (size_t k = 0; k < frame.radiance.size(); ++k)
-        for (size_t c = 0; c < 3; ++c)
-            values[3 * k + c] = frame.radiance[k][int(c)];
-    return make_array(std::move(values), picture_shape(frame, 3));
+using FramePointer = std::shared_ptr<render::Frame>;
+
+/// Channels of the frame's pixels from `first` on, without a copy: they live as long as the array.
+py::array_t<float> view_channels(const FramePointer& frame, py::ssize_t first, py::ssize_t channels) {
+    const std::span<const glm::vec4> pixels = frame->radiance();
+    const py::ssize_t pixel_bytes = sizeof(glm::vec4), channel_bytes = sizeof(float);
+    std::vector<py::ssize_t> strides = {pixel_bytes * frame->width, pixel_bytes};
+    if (channels > 1) strides.push_back(channel_bytes);
+    return {picture_shape(*frame, channels), strides, reinterpret_cast<const float*>(pixels.data()) + first,
+            py::cast(frame)};
 }
 
-py::array_t<float> alpha_of(const render::Frame& frame) {
-    std::vector<float> values(frame.radiance.size());
-    for (size_t k = 0; k < values.size(); ++k)
-        values[k] = frame.radiance[k].a;
-    return make_array(std::move(values), picture_shape(frame, 1));
-}
-
-py::array_t<float> normal_of(const render::Frame& frame) {
+py::array_t<float> normal_of(render::Frame& frame) {
     const std::vector<glm::vec3> normals = frame.normals();
     std::vector<float> values(normals.size() * 3);
     std::memcpy(values.data(), normals.data(), values.size() * sizeof(float));
@@ -181,11 +177,14 @@ std::shared_ptr<render::Frame> render_scene(render::Renderer& renderer, const Sc
 void bind_render(py::module_& m) {
     py::class_<render::Frame, std::shared_ptr<render::Frame>>(m, "FrameData",
                                                               "Pictures of one frame, copied when asked for.")
-        .def_property_readonly("color", &color_of, "(h, w, 3) float32, linear radiance.")
-        .def_property_readonly("alpha", &alpha_of, "(h, w) float32, coverage by objects.")
         .def_property_readonly(
-            "depth",
-            [](const render::Frame& frame) { return make_array(frame.depth(), picture_shape(frame, 1)); },
+            "color", [](const FramePointer& frame) { return view_channels(frame, 0, 3); },
+            "(h, w, 3) float32, linear radiance; a view of four channels side by side.")
+        .def_property_readonly(
+            "alpha", [](const FramePointer& frame) { return view_channels(frame, 3, 1); },
+            "(h, w) float32, coverage by objects; a view of the same.")
+        .def_property_readonly(
+            "depth", [](render::Frame& frame) { return make_array(frame.depth(), picture_shape(frame, 1)); },
             "(h, w) float32, distance along the camera's axis; infinity where nothing is.")
         .def_property_readonly("normal", &normal_of, "(h, w, 3) float32, world space; 0 where nothing is.")
         .def_property_readonly(

@@ -75,6 +75,9 @@ uvec2 pack_surface(vec3 normal, vec3 tangent, float handedness, uint material) {
     return uvec2(packed_normal, (packed_angle << 17) | (handedness < 0.0 ? 0x10000u : 0u) | (material + 1u));
 }
 
+// Of a surface whose tangent nothing asks for.
+uvec2 pack_surface(vec3 normal, uint material) { return uvec2(packSnorm2x16(octahedral_encode(normal)), material + 1u); }
+
 bool has_surface(uvec2 surface) { return (surface.y & 0xffffu) != 0u; }
 uint unpack_material(uvec2 surface) { return (surface.y & 0xffffu) - 1u; }
 vec3 unpack_normal(uvec2 surface) { return octahedral_decode(unpackSnorm2x16(surface.x)); }

@@ -6,6 +6,7 @@
 #include "shared/constants.h"
 #include "shared/records.h"
 
+layout(constant_id = SPEC_SURFACE_TANGENT) const bool HAS_TANGENT = false;
 layout(constant_id = SPEC_DOUBLE_SIDED) const bool IS_DOUBLE_SIDED = false;
 
 layout(push_constant) uniform Push { DrawRecord draw; };
@@ -16,6 +17,10 @@ layout(location = 0) out uvec2 surface;
 void main() {
     vec3 normal = normalize(normal_world);
     if (IS_DOUBLE_SIDED && !gl_FrontFacing) normal = -normal;
-    mat3 frame = frame_from_tangent(normal, tangent_world.xyz, tangent_world.w);
-    surface = pack_surface(normal, frame[0], tangent_world.w, draw.material);
+    if (HAS_TANGENT) {
+        mat3 frame = frame_from_tangent(normal, tangent_world.xyz, tangent_world.w);
+        surface = pack_surface(normal, frame[0], tangent_world.w, draw.material);
+    } else {
+        surface = pack_surface(normal, draw.material);
+    }
 }

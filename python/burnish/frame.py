@@ -2,7 +2,7 @@
 
 import math
 import os
-from dataclasses import dataclass
+from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
@@ -35,19 +35,19 @@ def relative_rmse(color: FloatArray, reference: FloatArray) -> float:
     return float(np.sqrt(np.sum((np.asarray(color, np.float64) - truth) ** 2) / energy))
 
 
-@dataclass(eq=False, repr=False)
 class Frame:
     """Pixels of one picture, row 0 at the top, and what they cost.
 
     Parameters
     ----------
     color : (h, w, 3) float32
-        Linear Rec. 709 radiance, the background included where the scene shows it.
+        Linear Rec. 709 radiance, the background included where the scene shows it. On a CPU device a view of
+        the memory that it was drawn into, not contiguous.
     alpha : (h, w) float32
         Share of the pixel that objects cover, 0..1.
-    depth : (h, w) float32
+    depth : (h, w) float32, or a function that gives it when it is first asked for
         Distance along the camera's axis; infinite where no object is.
-    normal : (h, w, 3) float32
+    normal : (h, w, 3) float32, or such a function
         World frame, unit length; 0 where no object is.
     report : Report
         Milliseconds per pass, effects and reasons, warnings.
@@ -57,12 +57,35 @@ class Frame:
         over that of `color` there, predicts the relative RMSE: `estimated_error`.
     """
 
-    color: FloatArray
-    alpha: FloatArray
-    depth: FloatArray
-    normal: FloatArray
-    report: Report
-    error_estimate: FloatArray | None = None
+    def __init__(
+        self,
+        color: FloatArray,
+        alpha: FloatArray,
+        depth: FloatArray | Callable[[], FloatArray],
+        normal: FloatArray | Callable[[], FloatArray],
+        report: Report,
+        error_estimate: FloatArray | None = None,
+    ) -> None:
+        self.color = color
+        self.alpha = alpha
+        self._depth = depth
+        self._normal = normal
+        self.report = report
+        self.error_estimate = error_estimate
+
+    @property
+    def depth(self) -> FloatArray:
+        """Distance along the camera's axis, (h, w) float32; infinite where no object is."""
+        if callable(self._depth):
+            self._depth = self._depth()
+        return self._depth
+
+    @property
+    def normal(self) -> FloatArray:
+        """Shading normals in the world frame, (h, w, 3) float32; 0 where no object is."""
+        if callable(self._normal):
+            self._normal = self._normal()
+        return self._normal
 
     def __repr__(self) -> str:
         height, width = self.color.shape[:2]

@@ -206,7 +206,7 @@ def render(
         other = companion(sampler)  # refuses a sampler that has none before any work is done
     data = _core.render(device, scene, camera, height, width, sampler, int(spp), filter, progress)
     report = dict(data.report) | ({"prediction": prediction} if prediction else {})
-    frame = Frame(data.color, data.alpha, data.depth, data.normal, Report(report))
+    frame = Frame(data.color, data.alpha, lambda: data.depth, lambda: data.normal, Report(report))
     if error_estimate:
         from burnish.advice.error_estimate import estimate_errors
 

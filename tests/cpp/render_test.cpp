@@ -60,23 +60,24 @@ std::set<std::string> pass_names(const Report& report) {
 
 double mean_coverage(const Frame& frame) {
     double sum = 0;
-    for (const glm::vec4& texel : frame.radiance)
+    for (const glm::vec4& texel : frame.radiance())
         sum += texel.a;
-    return sum / double(frame.radiance.size());
+    return sum / double(frame.radiance().size());
 }
 
 TEST(Render, SphereInAFurnaceIsNoBrighterThanIt) {
     const Scene scene = furnace_sphere(0.1f);
     const Camera camera = look_at({0, 0, 4}, {0, 0, 0}, {0, 1, 0});
     const Frame frame = renderer().render(scene, camera, small_settings(33, 33));
-    ASSERT_EQ(frame.radiance.size(), 33u * 33u);
-    for (const glm::vec4& texel : frame.radiance) {
+    ASSERT_EQ(frame.radiance().size(), 33u * 33u);
+    for (const glm::vec4& texel : frame.radiance()) {
         EXPECT_LE(texel.r, 1.001f);
         if (texel.a == 0.0f) { // braces: the macro holds an if of its own
             EXPECT_FLOAT_EQ(texel.r, 1.0f);
         }
     }
-    EXPECT_NEAR(frame.radiance[16 * 33 + 16].r, directional_albedo({0, 0, 1}, glm::dvec2(0.1), 0.0).x, 1e-3);
+    EXPECT_NEAR(frame.radiance()[16 * 33 + 16].r, directional_albedo({0, 0, 1}, glm::dvec2(0.1), 0.0).x,
+                1e-3);
     EXPECT_EQ(frame.report.non_finite, 0u);
 }
 
@@ -86,7 +87,7 @@ TEST(Render, SphereCoversItsDisc) {
     camera.is_orthographic = true;
     camera.half_height = 2.0f;
     camera.far_plane = 10.0f;
-    const Frame frame = renderer().render(scene, camera, small_settings(128, 128));
+    Frame frame = renderer().render(scene, camera, small_settings(128, 128));
     // A unit disc in a square of edge 4; the mesh of 128 segments lies a little inside.
     EXPECT_NEAR(mean_coverage(frame), std::numbers::pi / 16, 2e-3);
     const std::vector<float> depth = frame.depth();
@@ -142,7 +143,7 @@ TEST(Render, TinyGltfSceneShowsItsTriangle) {
     camera.far_plane = 4.0f;
     const Frame frame = renderer().render(scene, camera, small_settings(64, 64));
     EXPECT_NEAR(mean_coverage(frame), 0.5, 0.01);
-    const glm::vec4 inside = frame.radiance[50 * 64 + 10], outside = frame.radiance[10 * 64 + 50];
+    const glm::vec4 inside = frame.radiance()[50 * 64 + 10], outside = frame.radiance()[10 * 64 + 50];
     EXPECT_NEAR(inside.r, 1.0f, 1e-3f);
     EXPECT_NEAR(inside.g, 2.0f, 1e-3f);
     EXPECT_NEAR(inside.b, 3.0f, 1e-3f);

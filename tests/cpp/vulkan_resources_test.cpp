@@ -141,7 +141,8 @@ TEST_F(Transfers, ImpossibleImagesAreRefused) {
     expect_contains(refusal({.format = VK_FORMAT_R8_UNORM, .layers = 5, .is_cube = true}), "multiple of 6");
     expect_contains(refusal({.format = VK_FORMAT_UNDEFINED}), "format: expected one listed");
     // Some hardware stores to depth images; none may draw colours into them.
-    const ImageSettings not_drawable{.format = VK_FORMAT_D32_SFLOAT, .usage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT};
+    const ImageSettings not_drawable{.format = VK_FORMAT_D32_SFLOAT,
+                                     .usage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT};
     expect_contains(error_text<VulkanError>([&] { Image(device, not_drawable); }), "got D32_SFLOAT");
     expect_contains(
         error_text<VulkanError>([&] { Image(device, {.format = VK_FORMAT_R8_UNORM, .width = 1u << 30}); }),

@@ -49,9 +49,10 @@ std::shared_ptr<Environment> capture(Renderer& renderer, const Scene& scene, glm
     for (uint32_t face = 0; face < 6; ++face) {
         const Frame frame =
             renderer.render(surroundings, face_camera(face_axes(face), point, near_plane), settings);
+        const std::span<const glm::vec4> texels = frame.radiance();
         for (uint32_t row = 0; row < face_size; ++row)
             for (uint32_t column = 0; column < face_size; ++column) {
-                const glm::vec4& texel = frame.radiance[size_t(row) * face_size + (face_size - 1 - column)];
+                const glm::vec4& texel = texels[size_t(row) * face_size + (face_size - 1 - column)];
                 float* target = &radiance[((size_t(face) * face_size + row) * face_size + column) * 3];
                 for (int c = 0; c < 3; ++c)
                     target[c] = texel[c];

@@ -4,20 +4,38 @@
 
 #include "burnish/error.h"
 #include "burnish/render/octahedral.h"
+#include "burnish/render/surface_pass.h"
 #include "burnish/render/view.h"
+#include "burnish/vulkan/transfer.h"
 
 namespace burnish::render {
 
-std::vector<float> Frame::depth() const {
-    std::vector<float> result(raw_depth.size());
-    std::transform(raw_depth.begin(), raw_depth.end(), result.begin(),
+std::span<const glm::vec4> Frame::radiance() const {
+    if (!radiance_copy.empty()) return radiance_copy;
+    const vulkan::Buffer& buffer = report.spp > 1 ? targets->sum : targets->radiance;
+    return buffer.mapped<const glm::vec4>().first(size_t(width) * height);
+}
+
+void Frame::read_surface() {
+    if (!surface_.empty()) return;
+    raw_depth_.resize(size_t(width) * height);
+    surface_.resize(raw_depth_.size());
+    vulkan::read_back(targets->depth, {}, std::as_writable_bytes(std::span(raw_depth_)));
+    vulkan::read_back(targets->surface, {}, std::as_writable_bytes(std::span(surface_)));
+}
+
+std::vector<float> Frame::depth() {
+    read_surface();
+    std::vector<float> result(raw_depth_.size());
+    std::transform(raw_depth_.begin(), raw_depth_.end(), result.begin(),
                    [&](float depth) { return view_depth(camera, depth); });
     return result;
 }
 
-std::vector<glm::vec3> Frame::normals() const {
-    std::vector<glm::vec3> result(surface.size());
-    std::transform(surface.begin(), surface.end(), result.begin(), [](glm::uvec2 packed) {
+std::vector<glm::vec3> Frame::normals() {
+    read_surface();
+    std::vector<glm::vec3> result(surface_.size());
+    std::transform(surface_.begin(), surface_.end(), result.begin(), [](glm::uvec2 packed) {
         const bool has_surface = (packed.y & 0xffffu) != 0;
         return has_surface ? octahedral_decode(glm::unpackSnorm2x16(packed.x)) : glm::vec3(0.0f);
     });

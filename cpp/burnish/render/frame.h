@@ -40,18 +40,30 @@ struct Report {
     std::vector<std::string> ignored_extensions;
 };
 
+struct FrameTargets;
+
 struct Frame {
     uint32_t width = 0, height = 0;
     Camera camera;
-    std::vector<glm::vec4> radiance; ///< rgb: linear radiance; a: coverage by objects
-    std::vector<float> raw_depth;    ///< reverse z, of the first picture
-    std::vector<glm::uvec2> surface; ///< packed surface attributes, of the first picture
     Report report;
+    /// Where the host sees the device's memory, the frame keeps it instead of a copy: no later frame is drawn
+    /// into it while this one lives.
+    std::shared_ptr<FrameTargets> targets;
+    std::vector<glm::vec4> radiance_copy; ///< where it does not
 
+    /// rgb: linear radiance; a: coverage by objects.
+    std::span<const glm::vec4> radiance() const;
+    /// Copies depth and normals from the device, unless that was done; before the next picture is drawn into
+    /// the same targets.
+    void read_surface();
     /// Distance along the camera's axis; infinity where nothing is.
-    std::vector<float> depth() const;
+    std::vector<float> depth();
     /// World-space shading normals; 0 where nothing is.
-    std::vector<glm::vec3> normals() const;
+    std::vector<glm::vec3> normals();
+
+private:
+    std::vector<float> raw_depth_;    // reverse z, of the first picture
+    std::vector<glm::uvec2> surface_; // packed surface attributes, of the first picture
 };
 
 /// For reports: "1 lobe", "fresnel", ...; and "none", "constant", "buffer", "scaled".

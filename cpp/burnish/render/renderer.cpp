@@ -36,20 +36,13 @@ void add_non_finite(Report& report, const vulkan::Buffer& counters) {
         report.problems.push_back(message(report.non_finite, " values were not finite and became black"));
 }
 
-/// Depth and packed normals, copied before later pictures of the same frame overwrite them.
-void read_surface(FrameTargets& targets, Frame& frame) {
-    frame.raw_depth.resize(size_t(frame.width) * frame.height);
-    frame.surface.resize(frame.raw_depth.size());
-    vulkan::read_back(targets.depth, {}, std::as_writable_bytes(std::span(frame.raw_depth)));
-    vulkan::read_back(targets.surface, {}, std::as_writable_bytes(std::span(frame.surface)));
-}
-
 } // namespace
 
 Renderer::Renderer(std::shared_ptr<vulkan::Device> device, std::optional<MapLookup> lookup)
     : device_(std::move(device)),
       lookup_(choose_lookup(device_->info().is_software, lookup, device_->limits().maxTexelBufferElements)),
-      pipelines_(device_), pyramid_(device_), placeholders_(device_) {}
+      pipelines_(device_), pyramid_(device_), placeholders_(device_),
+      targets_(std::make_shared<TargetPool>(device_)) {}
 
 Plan Renderer::make_plan(const Scene& scene, const PlanSettings& settings) {
     PlanSettings with_lookup = settings;
@@ -73,19 +66,6 @@ GpuScene& Renderer::prepare_scene(const Scene& scene) {
                                                 scene.materials.size(), ", got ", object.mesh, " and ",
                                                 object.material));
     return *scene_;
-}
-
-FrameTargets& Renderer::prepare_targets(const Plan& plan, uint32_t width, uint32_t height) {
-    const uint32_t classes = uint32_t(plan.classes.size()) + 1;
-    const bool has_sum = plan.settings.spp > 1;
-    if (!targets_ || targets_->width != width || targets_->height != height ||
-        targets_->has_varying != plan.has_varying || targets_classes_ < classes || targets_sum_ != has_sum) {
-        targets_.reset();
-        targets_ = std::make_unique<FrameTargets>(device_, width, height, plan.has_varying, has_sum, classes);
-        targets_classes_ = classes;
-        targets_sum_ = has_sum;
-    }
-    return *targets_;
 }
 
 Report Renderer::start_report(const Scene& scene, const Plan& plan, const ShadeTables& tables) const {
@@ -135,7 +115,10 @@ Frame Renderer::render(const Scene& scene, const Camera& camera, const RenderSet
     std::vector<vulkan::PassTime> times;
     const std::vector<std::shared_ptr<EnvironmentMaps>> maps = prepare_maps(plan, times);
     const ShadeTables tables = make_shade_tables(device_, scene, plan, tables_);
-    FrameTargets& targets = prepare_targets(plan, settings.width, settings.height);
+    frame.targets = targets_->take(settings.width, settings.height, plan.has_varying, plan.settings.spp > 1,
+                                   uint32_t(plan.classes.size()) + 1);
+    FrameTargets& targets = *frame.targets;
+    const bool is_shared = device_->info().is_software && targets.radiance.is_mapped();
     frame.report = start_report(scene, plan, tables);
     frame.report.width = settings.width;
     frame.report.height = settings.height;
@@ -194,15 +177,18 @@ Frame Renderer::render(const Scene& scene, const Camera& camera, const RenderSet
             after.submit();
             add_pass_times(times, after.pass_times());
         }
-        if (picture == 0) read_surface(targets, frame);
+        // Later pictures overwrite it.
+        if (picture == 0 && (spp > 1 || !is_shared)) frame.read_surface();
         if (settings.progress && !is_reference) settings.progress((picture + 1.0) / spp, "pictures");
     }
     const Stopwatch read_watch;
-    frame.radiance = read_buffer<glm::vec4>(spp > 1 ? targets.sum : targets.radiance, pixels);
+    if (!is_shared)
+        frame.radiance_copy = read_buffer<glm::vec4>(spp > 1 ? targets.sum : targets.radiance, pixels);
     add_pass_times(times, {{"read back", read_watch.milliseconds()}});
     times.insert(times.end(), frame.report.passes.begin(), frame.report.passes.end());
     frame.report.passes = std::move(times);
     add_non_finite(frame.report, targets.counters);
+    if (!is_shared) frame.targets.reset();
     frame.report.wall_ms = wall.milliseconds();
     return frame;
 }

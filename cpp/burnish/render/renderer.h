@@ -16,6 +16,7 @@
 #include "burnish/render/pyramid.h"
 #include "burnish/render/shade_pass.h"
 #include "burnish/render/shade_tables.h"
+#include "burnish/render/target_pool.h"
 
 namespace burnish::render {
 
@@ -86,7 +87,6 @@ private:
     Plan make_plan(const Scene& scene, const PlanSettings& settings);
     GpuScene& prepare_scene(const Scene& scene);
     const vulkan::Buffer& prepare_alias(const std::vector<std::shared_ptr<const Environment>>& environments);
-    FrameTargets& prepare_targets(const Plan& plan, uint32_t width, uint32_t height);
     ReferenceBuffers make_reference_buffers(const Scene& scene, const Plan& plan, uint64_t points);
     /// Runs batches until the wanted error is reached; fills error, samples and warnings of the report.
     void run_reference(const Plan& plan, const ShadePass& pass, const ReferenceBuffers& buffers,
@@ -106,9 +106,7 @@ private:
     uint64_t scene_fingerprint_ = 0;
     std::unique_ptr<GpuScene> scene_;
     std::vector<CachedMaps> maps_;
-    std::unique_ptr<FrameTargets> targets_;
-    uint32_t targets_classes_ = 0;
-    bool targets_sum_ = false;
+    std::shared_ptr<TargetPool> targets_;
     std::vector<std::weak_ptr<const Environment>> alias_environments_;
     vulkan::Buffer alias_;
 };

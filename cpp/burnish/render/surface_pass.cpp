@@ -110,8 +110,8 @@ constexpr VkFormat DEPTH_FORMAT = VK_FORMAT_D32_SFLOAT;
 } // namespace
 
 FrameTargets::FrameTargets(const vulkan::DevicePointer& device, uint32_t width_px, uint32_t height_px,
-                           bool is_varying, bool has_sum, uint32_t class_count)
-    : width(width_px), height(height_px), has_varying(is_varying) {
+                           bool is_varying, bool is_summed, uint32_t classes)
+    : width(width_px), height(height_px), has_varying(is_varying), has_sum(is_summed), class_count(classes) {
     const VkImageUsageFlags color = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_STORAGE_BIT;
     surface = target(device, SURFACE_FORMAT, width, height, color);
     depth = target(device, DEPTH_FORMAT, width, height, VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT);

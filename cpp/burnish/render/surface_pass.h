@@ -13,8 +13,10 @@ namespace burnish::render {
 struct FrameTargets {
     uint32_t width = 0, height = 0;
     bool has_varying = false;
-    vulkan::Image surface; ///< RG32UI: see pack_surface in glsl/lib/frame.glsl
-    vulkan::Image depth;   ///< D32, reverse z
+    bool has_sum = false;
+    uint32_t class_count = 0; ///< that there is room for
+    vulkan::Image surface;    ///< RG32UI: see pack_surface in glsl/lib/frame.glsl
+    vulkan::Image depth;      ///< D32, reverse z
     vulkan::Image varying_diffuse, varying_specular, varying_emissive,
         varying_coat;           ///< one texel unless has_varying
     vulkan::Buffer radiance;    ///< vec4 a pixel

@@ -7,7 +7,6 @@ there the two sizes disagree, and a dense sampler of the lobe stands in.
 """
 
 import math
-from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -66,7 +65,8 @@ def draw_truth(
     largest_cosine = RIM_TEXELS / (finest * max(min(slopes, default=1.0), LEAST_ROUGHNESS))
     is_rim = view_cosines(fine.normal, camera or scene.default_camera()) < largest_cosine
     other = None if is_exact else coarse.color
-    return replace(fine, color=extrapolate(fine.color, other, dense.color, is_rim))
+    color = extrapolate(fine.color, other, dense.color, is_rim)
+    return Frame(color, fine.alpha, lambda: fine.depth, lambda: fine.normal, fine.report)
 
 
 def view_cosines(normal: FloatArray, camera: _core.Camera) -> NDArray[np.float64]:

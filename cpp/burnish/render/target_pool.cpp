@@ -1,0 +1,42 @@
+#include "burnish/render/target_pool.h"
+
+#include <algorithm>
+
+namespace burnish::render {
+namespace {
+
+// In a loop that keeps its last frame while it draws the next, two sets take turns.
+constexpr size_t MOST_IDLE = 2;
+
+} // namespace
+
+std::shared_ptr<FrameTargets> TargetPool::take(uint32_t width, uint32_t height, bool has_varying,
+                                               bool has_sum, uint32_t class_count) {
+    std::unique_ptr<FrameTargets> targets;
+    {
+        const std::lock_guard lock(mutex_);
+        // What does not fit goes first: its memory may be needed.
+        std::erase_if(idle_, [&](const auto& one) {
+            return one->width != width || one->height != height || one->has_varying != has_varying ||
+                   one->has_sum != has_sum || one->class_count < class_count;
+        });
+        if (!idle_.empty()) {
+            targets = std::move(idle_.back());
+            idle_.pop_back();
+        }
+    }
+    if (!targets)
+        targets = std::make_unique<FrameTargets>(device_, width, height, has_varying, has_sum, class_count);
+    return {targets.release(), [pool = weak_from_this()](FrameTargets* one) {
+                std::unique_ptr<FrameTargets> owned(one);
+                if (const auto alive = pool.lock()) alive->give_back(std::move(owned));
+            }};
+}
+
+void TargetPool::give_back(std::unique_ptr<FrameTargets> targets) {
+    const std::lock_guard lock(mutex_);
+    idle_.push_back(std::move(targets));
+    if (idle_.size() > MOST_IDLE) idle_.erase(idle_.begin());
+}
+
+} // namespace burnish::render

@@ -1,0 +1,29 @@
+// What frames are drawn into, handed out and taken back.
+#pragma once
+
+#include <memory>
+#include <mutex>
+#include <vector>
+
+#include "burnish/render/surface_pass.h"
+
+namespace burnish::render {
+
+/// Targets belong to whoever holds them and come back when they are let go, from any thread. A few wait here
+/// for the next frame: fresh memory costs a CPU device more than a small frame.
+class TargetPool : public std::enable_shared_from_this<TargetPool> {
+public:
+    explicit TargetPool(vulkan::DevicePointer device) : device_(std::move(device)) {}
+
+    std::shared_ptr<FrameTargets> take(uint32_t width, uint32_t height, bool has_varying, bool has_sum,
+                                       uint32_t class_count);
+
+private:
+    void give_back(std::unique_ptr<FrameTargets> targets);
+
+    vulkan::DevicePointer device_;
+    std::mutex mutex_;
+    std::vector<std::unique_ptr<FrameTargets>> idle_; // the last used last
+};
+
+} // namespace burnish::render
