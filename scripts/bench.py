@@ -9,6 +9,7 @@ from collections.abc import Callable
 from datetime import date
 from pathlib import Path
 
+from bench_lookups import bench_lookups
 from bench_samplers import bench_maps, bench_samplers
 from bench_scenes import effect_scenes
 from tqdm import tqdm
@@ -156,6 +157,11 @@ def main() -> None:
         "driver": device.driver,
         "date": str(date.today()),
         "shading": bench_shading(device, options.repeats),
+        **(
+            {"lookups": bench_lookups(options.device, alternate, options.repeats)}
+            if device.is_software
+            else {}
+        ),
         "samplers": bench_samplers(device, frame_measure, alternate, options.repeats),
         "maps": bench_maps(device, alternate, max(3, options.repeats // 2)),
         "pyramids": bench_pyramids(device, options.repeats),

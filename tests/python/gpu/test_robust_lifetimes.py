@@ -45,6 +45,27 @@ def test_parts_outlive_the_scene_they_came_from(device, spots64):
     assert one.bounds()[1][0] == pytest.approx(2.0, rel=1e-3)
 
 
+def test_frames_keep_their_pixels_while_others_are_drawn(device, spots64):
+    """On a CPU device a frame is the memory it was drawn into; depth and normals are read when asked for."""
+    scenes = [make_scene(spots64, roughness) for roughness in (0.1, 0.4)]
+    scenes[1].objects[0].world_from_object = np.diag([0.5, 0.5, 0.5, 1.0])
+    camera = scenes[0].default_camera()
+
+    def draw(scene):
+        return burnish.render(scene, camera=camera, size=SIZE, device=device)
+
+    kept, color = draw(scenes[0]), draw(scenes[0]).color.copy()
+    others = [draw(scene) for scene in 3 * scenes]
+    np.testing.assert_array_equal(kept.color, color)
+    np.testing.assert_array_equal(kept.depth, others[2].depth)
+    assert np.isinf(kept.depth).sum() < np.isinf(others[1].depth).sum()
+    view = kept.color
+    del kept, others
+    gc.collect()
+    draw(scenes[1])
+    np.testing.assert_array_equal(view, color)
+
+
 def test_frames_survive_a_changed_and_a_deleted_environment(device):
     scene = make_scene(spots(seed=1, face_size=32))
     first = burnish.render(scene, size=SIZE, device=device)
