@@ -12,6 +12,7 @@
 #include "spirv/shade_shade_comp.h"
 #include "spirv/surface_surface_frag.h"
 #include "spirv/surface_surface_varying_frag.h"
+#include "spirv/surface_surface_varying_vert.h"
 #include "spirv/surface_surface_vert.h"
 
 namespace burnish::render {
@@ -29,6 +30,7 @@ const std::map<std::string, std::span<const uint32_t>>& spirv() {
         {"surface/surface.frag", surface_surface_frag_spv},
         {"surface/surface_varying.frag", surface_surface_varying_frag_spv},
         {"surface/surface.vert", surface_surface_vert_spv},
+        {"surface/surface_varying.vert", surface_surface_varying_vert_spv},
     };
     return words;
 }

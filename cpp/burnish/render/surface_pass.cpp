@@ -86,11 +86,13 @@ shared::DrawRecord draw_record(const Object& object, uint32_t instance) {
     return record;
 }
 
-std::vector<VkVertexInputAttributeDescription> vertex_attributes() {
-    return {{0, 0, VK_FORMAT_R32G32B32_SFLOAT, 0},
-            {1, 0, VK_FORMAT_R16G16B16A16_SNORM, 12},
-            {2, 1, VK_FORMAT_R32G32B32A32_SFLOAT, 0},
-            {3, 1, VK_FORMAT_R16G16B16A16_UNORM, 16}};
+std::vector<VkVertexInputAttributeDescription> vertex_attributes(bool is_varying) {
+    std::vector<VkVertexInputAttributeDescription> attributes = {{0, 0, VK_FORMAT_R32G32B32_SFLOAT, 0},
+                                                                 {1, 0, VK_FORMAT_R16G16B16A16_SNORM, 12}};
+    if (is_varying)
+        attributes.insert(attributes.end(), {{2, 1, VK_FORMAT_R32G32B32A32_SFLOAT, 0},
+                                             {3, 1, VK_FORMAT_R16G16B16A16_UNORM, 16}});
+    return attributes;
 }
 
 vulkan::Image target(const vulkan::DevicePointer& device, VkFormat format, uint32_t width, uint32_t height,
@@ -183,18 +185,18 @@ void SurfacePass::add_records(const vulkan::DevicePointer& device, const Scene& 
 const vulkan::GraphicsPipeline& SurfacePass::pipeline_for(Pipelines& pipelines, const Material& material,
                                                           bool is_varying, bool is_mirrored) const {
     vulkan::GraphicsSettings settings;
-    const bool has_texture_vertices = gpu_scene_.has_texture_vertices();
-    settings.vertex_bindings = {
-        {0, GpuScene::VERTEX_BYTES, VK_VERTEX_INPUT_RATE_VERTEX},
-        {1, has_texture_vertices ? GpuScene::TEXTURE_VERTEX_BYTES : 0, VK_VERTEX_INPUT_RATE_VERTEX}};
-    settings.vertex_attributes = vertex_attributes();
+    const bool has_texture_vertices = is_varying && gpu_scene_.has_texture_vertices();
+    settings.vertex_bindings = {{0, GpuScene::VERTEX_BYTES, VK_VERTEX_INPUT_RATE_VERTEX}};
+    if (is_varying)
+        settings.vertex_bindings.push_back(
+            {1, has_texture_vertices ? GpuScene::TEXTURE_VERTEX_BYTES : 0, VK_VERTEX_INPUT_RATE_VERTEX});
+    settings.vertex_attributes = vertex_attributes(is_varying);
     settings.color_formats = {SURFACE_FORMAT};
     if (is_varying) settings.color_formats.insert(settings.color_formats.end(), 4, VARYING_FORMAT);
     settings.depth_format = DEPTH_FORMAT;
     settings.cull_mode = material.double_sided ? VK_CULL_MODE_NONE : VK_CULL_MODE_BACK_BIT;
     settings.front_face = is_mirrored ? VK_FRONT_FACE_CLOCKWISE : VK_FRONT_FACE_COUNTER_CLOCKWISE;
     settings.constants.set(shared::SPEC_SURFACE_TANGENT, has_tangent_)
-        .set(shared::SPEC_SURFACE_VARYING, is_varying)
         .set(shared::SPEC_DOUBLE_SIDED, material.double_sided);
     if (is_varying)
         settings.constants.set(shared::SPEC_TEXTURES, texture_mask(material))
@@ -202,9 +204,8 @@ const vulkan::GraphicsPipeline& SurfacePass::pipeline_for(Pipelines& pipelines, 
             .set(shared::SPEC_ALPHA_MASK, material.alpha_mode != AlphaMode::opaque);
     const std::string key =
         std::string(is_mirrored ? "mirrored " : "") + (has_texture_vertices ? "textured" : "");
-    return pipelines.graphics("surface/surface.vert",
-                              is_varying ? "surface/surface_varying.frag" : "surface/surface.frag", key,
-                              settings);
+    const std::string shader = is_varying ? "surface/surface_varying" : "surface/surface";
+    return pipelines.graphics(shader + ".vert", shader + ".frag", key, settings);
 }
 
 const vulkan::DescriptorSet& SurfacePass::set_for(const vulkan::GraphicsPipeline& pipeline,
