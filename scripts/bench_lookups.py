@@ -11,7 +11,8 @@ Measures = dict[str, Callable[[], dict[str, float]]]
 Alternate = Callable[[Measures, int, str], dict[str, dict[str, float]]]
 PUBLISHED = burnish.Regular(samples=20, footprint="published", normalization="published")
 SIZE = (1080, 1920)
-# The driver's compiler places about one pipeline in forty badly, for good: each is made twice, the better counts.
+# The driver's compiler places about one pipeline in forty badly, for good: each is made twice, the better one
+# counts.
 PIPELINES = 2
 ROUND = burnish.KurtLobe(roughness=0.1)
 BRUSHED = burnish.KurtLobe(roughness=(0.2, 0.075))
@@ -161,9 +162,7 @@ def bench_lookups(device_name: str, alternate: Alternate, repeats: int) -> dict:
     )
     result["frames"] = times
     base = times["sampler, regular 20"]["wall"]
-    print(
-        "\nframes to numpy, one sphere on 44 % of 1920 x 1080, no background: ms, shading, the rest, of the first"
-    )
+    print("\nframes to numpy, a sphere on 44 % of 1920 x 1080, no background: ms, shading, rest; ratio")
     for name, one in times.items():
         print(
             f"  {name:<36}{one['wall']:8.1f}{one['shade']:8.1f}{one['rest']:8.1f}   {one['wall'] / base:5.2f}"

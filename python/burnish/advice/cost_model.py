@@ -81,9 +81,9 @@ def cache_path(device: _core.Device) -> Path:
     Parameters
     ----------
     device : Device
-        Its name, driver and the version of burnish decide the file's name.
+        Its name, driver and lookup and the version of burnish decide the file's name.
     """
-    name = f"{device.name}|{device.driver}|{burnish.__version__}"
+    name = f"{device.name}|{device.driver}|{device.lookup}|{burnish.__version__}"
     return cache_folder() / f"cost-{hashlib.sha256(name.encode()).hexdigest()[:12]}.json"
 
 
@@ -144,6 +144,7 @@ class CostModel:
         data = {
             "device": self._device.name,
             "driver": self._device.driver,
+            "lookup": self._device.lookup,
             "version": burnish.__version__,
             "date": datetime.now(timezone.utc).isoformat(timespec="seconds"),
             "rates_ns": self._rates,

@@ -82,7 +82,7 @@ class Subject(Protocol):
         """Draw it once; `progress` is called with the share done and the step's name."""
 
     def device_names(self) -> dict[str, Any]:
-        """Give ``device``, ``driver`` and ``is_software``."""
+        """Give ``device``, ``driver``, ``is_software`` and ``lookup``."""
 
     def describe(self) -> dict[str, Any]:
         """Name what is drawn, for people: scene, material, environment, filter, size."""
@@ -92,7 +92,12 @@ class Subject(Protocol):
 
 
 def _device_names(device: _core.Device) -> dict[str, Any]:
-    return {"device": device.name, "driver": device.driver, "is_software": device.is_software}
+    return {
+        "device": device.name,
+        "driver": device.driver,
+        "is_software": device.is_software,
+        "lookup": device.lookup,
+    }
 
 
 class SceneSubject:
@@ -144,7 +149,7 @@ class SceneSubject:
         )
 
     def device_names(self) -> dict[str, Any]:
-        """Give ``device``, ``driver`` and ``is_software``."""
+        """Give ``device``, ``driver``, ``is_software`` and ``lookup``."""
         return _device_names(self._device)
 
     def describe(self) -> dict[str, Any]:
@@ -219,7 +224,7 @@ class PointsSubject:
         return self._counts[text]
 
     def device_names(self) -> dict[str, Any]:
-        """Give ``device``, ``driver`` and ``is_software``."""
+        """Give ``device``, ``driver``, ``is_software`` and ``lookup``."""
         return _device_names(self._device)
 
     def describe(self) -> dict[str, Any]:

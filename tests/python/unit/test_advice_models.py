@@ -21,7 +21,7 @@ ROUND = Traits(1, False, 0.0, False)
 
 
 class NamedDevice:
-    name, driver = "a device", "its driver"
+    name, driver, lookup = "a device", "its driver", "sampler"
 
 
 def test_a_uniform_map_has_no_contrast():
