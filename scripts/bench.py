@@ -99,7 +99,7 @@ def bench_shading(device: burnish.Device, repeats: int) -> dict:
         ),
         ("shade, exact", exact, f"ms, exact footprint and furnace: {exact / frame['shade']:.2f} x published"),
     ):
-        print(f"  {name:<14}{value:8.1f} {remark}")
+        print(f"  {name:<14}{value:10.4g} {remark}")
     return result
 
 
@@ -138,7 +138,7 @@ def bench_effects(device: burnish.Device, repeats: int) -> dict:
             for key in keys:
                 absent, zero, present = (values[key] for values in times.values())
                 print(
-                    f"  {name:<26}{absent:10.1f}{zero:10.1f}{present:10.1f}"
+                    f"  {name:<26}{absent:10.3g}{zero:10.3g}{present:10.3g}"
                     f"   {zero / absent:11.2f}  {present / absent:14.2f}   {key}"
                 )
     return result

@@ -47,7 +47,7 @@ def bench_samplers(
             ratio = times["matched"]["shade"] / times["regular"]["shade"] * used / count
             result[f"{name}, {count}"] = {**times, "regular samples": used, "ratio": ratio}
             line += (
-                f"{times['matched']['shade']:9.1f}/{times['regular']['shade']:6.1f}({used:2}) {ratio:5.2f}x"
+                f"{times['matched']['shade']:9.3g}/{times['regular']['shade']:6.3g}({used:2}) {ratio:5.2f}x"
             )
         print(line)
     return result
