@@ -71,7 +71,7 @@ std::map<std::string, Layout> shared_layout() {
           FIELD(PyramidRecord, target_pitch), FIELD(PyramidRecord, pad0), FIELD(PyramidRecord, pad1),
           FIELD(PyramidRecord, pad2)}},
         {"PackRecord",
-         {FIELD(PackRecord, level), FIELD(PackRecord, size), FIELD(PackRecord, begin),
+         {FIELD(PackRecord, size), FIELD(PackRecord, texel_begin), FIELD(PackRecord, begin),
           FIELD(PackRecord, cube_stride)}},
         {"PrefilterRecord",
          {FIELD(PrefilterRecord, cube), FIELD(PrefilterRecord, size), FIELD(PrefilterRecord, texel_begin),

@@ -16,13 +16,14 @@
 
 SHARED_BEGIN
 
-SHARED_CONST uint BINDING_PACK_FACES = 0u;
+SHARED_CONST uint BINDING_PACK_TEXELS = 0u;
 SHARED_CONST uint BINDING_PACK_PAIRS = 1u;
+SHARED_CONST uint SPEC_PACK_BORDER = 0u;
 
 // Push constants of the packing of one level.
 struct PackRecord {
-    uint level;
     uint size;        // texels along an edge of the level
+    uint texel_begin; // of the level in the buffer of texels
     uint begin;       // of the level in its cube, in pairs
     uint cube_stride; // pairs from cube to cube
 };

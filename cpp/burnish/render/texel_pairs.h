@@ -20,14 +20,17 @@ public:
 
     /// Records the packing of every level that `cubes` has; values stay what they are, but the mean of three
     /// texels at a cube's corner is rounded to half. `cubes` is a cube array of RGBA16F in
-    /// SHADER_READ_ONLY_OPTIMAL. It and this object must live until the commands are done.
-    PairBuffer record(vulkan::Commands& commands, const vulkan::Image& cubes);
+    /// SHADER_READ_ONLY_OPTIMAL, and is so afterwards. It and this object must live until the commands are
+    /// done.
+    PairBuffer record(vulkan::Commands& commands, vulkan::Image& cubes);
 
 private:
     std::shared_ptr<const vulkan::Device> device_;
-    vulkan::ComputePipeline pack_;
-    vulkan::Sampler sampler_;
-    vulkan::DescriptorSet set_; // of the last call
+    vulkan::ComputePipeline inside_, border_;
+    // Of the last call: the cubes as they lie in memory, level by level.
+    vulkan::Buffer texels_;
+    vulkan::TexelView texels_view_;
+    vulkan::DescriptorSet set_;
 };
 
 } // namespace burnish
