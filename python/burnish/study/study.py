@@ -37,8 +37,8 @@ class Study:
         ``samples_used``; ``relative_rmse``, ``display_rms``, ``flip``, ``max_error`` (see `Errors`),
         ``reference``, ``reference_standard_error``; ``frame_ms``, ``shade_ms``, ``wall_ms`` (see
         `frame_times`; medians) and their median absolute deviations ``frame_deviation_ms`` and so on,
-        ``passes_ms`` (dict by pass), ``compile_ms``, ``runs``; ``device``, ``driver``, ``is_software``, ``lookup``,
-        ``date`` (UTC), ``version``, ``warnings``, ``key``.
+        ``passes_ms`` (dict by pass), ``compile_ms``, ``runs``; ``device``, ``driver``, ``is_software``,
+        ``lookup``, ``date`` (UTC), ``version``, ``warnings``, ``key``.
     pictures : list of CellPictures
         For the page; empty where none were kept, or the study comes from a file.
     command : str

@@ -22,7 +22,7 @@ def judge_counts(numbers: Numbers) -> list[Verdict]:
         verdicts.append(
             Verdict(
                 "Eqs. 11 to 13",
-                f"m {slopes}, xi0 {row['threshold']:g} gives {printed} samples.",
+                f"m {slopes}, xi0 {row['threshold']:g}{row['spacing']} gives {printed} samples.",
                 "printed",
                 found == printed,
                 f"{found} samples",

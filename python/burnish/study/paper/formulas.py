@@ -47,7 +47,13 @@ def pattern_counts() -> list[dict[str, Any]]:
         else:
             spacing, circles = named
             pattern = sample_pattern(roughness, "s1" if spacing == "s1" else "s2", circles, threshold)
-        row = {"printed": printed, "roughness": list(roughness), "threshold": threshold}
+        spacing_text = "" if named is None else f", spacing {named[0]}, {named[1]} circles"
+        row = {
+            "printed": printed,
+            "roughness": list(roughness),
+            "threshold": threshold,
+            "spacing": spacing_text,
+        }
         rows.append({**row, "samples": len(pattern)})
     return rows
 
