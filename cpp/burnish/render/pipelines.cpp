@@ -9,7 +9,11 @@
 #include "spirv/shade_finish_tiles_comp.h"
 #include "spirv/shade_lookups_alone_comp.h"
 #include "spirv/shade_reference_comp.h"
-#include "spirv/shade_shade_comp.h"
+#include "spirv/shade_shade_buffer_comp.h"
+#include "spirv/shade_shade_constant_comp.h"
+#include "spirv/shade_shade_matched_by_view_comp.h"
+#include "spirv/shade_shade_matched_comp.h"
+#include "spirv/shade_shade_prefiltered_comp.h"
 #include "spirv/surface_surface_frag.h"
 #include "spirv/surface_surface_varying_frag.h"
 #include "spirv/surface_surface_varying_vert.h"
@@ -26,7 +30,11 @@ const std::map<std::string, std::span<const uint32_t>>& spirv() {
         {"shade/classify_tiles.comp", shade_classify_tiles_comp_spv},
         {"shade/finish_tiles.comp", shade_finish_tiles_comp_spv},
         {"shade/reference.comp", shade_reference_comp_spv},
-        {"shade/shade.comp", shade_shade_comp_spv},
+        {"shade/shade_buffer.comp", shade_shade_buffer_comp_spv},
+        {"shade/shade_constant.comp", shade_shade_constant_comp_spv},
+        {"shade/shade_matched.comp", shade_shade_matched_comp_spv},
+        {"shade/shade_matched_by_view.comp", shade_shade_matched_by_view_comp_spv},
+        {"shade/shade_prefiltered.comp", shade_shade_prefiltered_comp_spv},
         {"surface/surface.frag", surface_surface_frag_spv},
         {"surface/surface_varying.frag", surface_surface_varying_frag_spv},
         {"surface/surface.vert", surface_surface_vert_spv},

@@ -16,8 +16,8 @@ class Pipelines {
 public:
     explicit Pipelines(vulkan::DevicePointer device) : device_(std::move(device)) {}
 
-    /// `name` is the file under glsl/ without its ending: "shade/shade.comp". Throws std::logic_error for one
-    /// there is not.
+    /// `name` is the file under glsl/ without its ending: "shade/shade_buffer.comp". Throws std::logic_error
+    /// for one there is not.
     const vulkan::Shader& shader(const std::string& name);
     const vulkan::ComputePipeline& compute(const std::string& name,
                                            const vulkan::SpecializationConstants& constants = {});

@@ -41,6 +41,24 @@ uint32_t table_of(TableForm form, const Sampler& sampler) {
     return shared::TABLE_BUFFER;
 }
 
+const char* shader_of(TableForm form) {
+    switch (form) {
+    case TableForm::none:
+    case TableForm::constant:
+        return "shade/shade_constant.comp";
+    case TableForm::buffer:
+    case TableForm::scaled:
+        return "shade/shade_buffer.comp";
+    case TableForm::matched:
+        return "shade/shade_matched.comp";
+    case TableForm::matched_by_view:
+        return "shade/shade_matched_by_view.comp";
+    case TableForm::prefiltered:
+        return "shade/shade_prefiltered.comp";
+    }
+    return "shade/shade_constant.comp";
+}
+
 uint32_t normalization_of(const Sampler& sampler, TableForm form) {
     if (std::holds_alternative<Matched>(sampler)) return shared::NORMALIZATION_FURNACE;
     const auto* regular = std::get_if<Regular>(&sampler);
@@ -127,7 +145,7 @@ ShadePass::ShadePass(Pipelines& pipelines, const Plan& plan, const ShadeTables& 
         else
             add_pattern_constants(constants, traits, plan.settings, tables.class_tables[k]);
         add_lookup_constants(constants, plan.map_sets[traits.map_set]);
-        const std::string shader = reference ? "shade/reference.comp" : "shade/shade.comp";
+        const std::string shader = reference ? "shade/reference.comp" : shader_of(traits.table);
         classes_.push_back(
             make_stage(pipelines, shader, constants, k, maps[traits.map_set].get(), reference));
         classes_.back().name = message(reference ? "reference " : "shade ", k);

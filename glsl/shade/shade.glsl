@@ -1,7 +1,7 @@
-// Shades surface points by patterns of half-vectors (regular sampling and filtered importance sampling) or by prefiltered maps.
-#version 460
-#extension GL_GOOGLE_include_directive : require
-#extension GL_EXT_control_flow_attributes : require
+// Shades surface points. An entry point defines `look_up_lobe`, one way of bringing a lobe's light together: with all of them in one
+// kernel a driver would take six times as long to compile it.
+#ifndef BURNISH_SHADE_SHADE
+#define BURNISH_SHADE_SHADE
 
 #include "lib/spherical_harmonics.glsl"
 #include "shade/lobe.glsl"
@@ -9,6 +9,9 @@
 #include "shade/prefiltered.glsl"
 #include "shade/suns.glsl"
 #include "shade/surface_point.glsl"
+
+// Light of the lobe at the point without its suns, conserving_scale and the map's exposure.
+vec3 look_up_lobe(LobeView v, SurfaceLobe lobe, LobeRecord record, vec2 albedo, MapRecord map);
 
 vec3 shade_lobe(PointToShade point, MapRecord map, uint lobe_index, uint which) {
     SurfaceLobe lobe = point_lobe(point, lobe_index, which);
@@ -24,21 +27,11 @@ vec3 shade_lobe(PointToShade point, MapRecord map, uint lobe_index, uint which) 
     v.area_term = published_area_term(v.local_o);
     v.threshold_log = record.threshold_log;
     v.layer = float(map.layer);
-    if (TABLE == TABLE_PREFILTERED) return shade_prefiltered(v, lobe, record, float(map.face_size));
-
-    LobeSums sums;
-    if (TABLE == TABLE_MATCHED)
-        sums = gather_matched(v, view_mixture(v, record.table_begin, record.variance_share, lobe.specular, lobe.grazing));
-    else if (TABLE == TABLE_MATCHED_BY_VIEW)
-        sums = gather_by_view(v, record.table_begin);
-    else if (TABLE == TABLE_CONSTANT)
-        sums = gather_constant(v);
-    else
-        sums = gather_buffer(v, record.table_begin, record.table_count);
 
     vec2 albedo = vec2(0.0);
-    if (NORMALIZATION == NORMALIZATION_FURNACE || CONSERVES_ENERGY) albedo = lobe_albedo(record, v.roughness, v.local_o);
-    vec3 light = finish_lobe(v, sums, lobe.specular, lobe.grazing, albedo);
+    if (NORMALIZATION == NORMALIZATION_FURNACE || CONSERVES_ENERGY || TABLE == TABLE_PREFILTERED)
+        albedo = lobe_albedo(record, v.roughness, v.local_o);
+    vec3 light = look_up_lobe(v, lobe, record, albedo, map);
     if (SUN_COUNT > 0u) light += shade_suns(v, map, lobe.specular, lobe.grazing);
     return light * conserving_scale(record, albedo, v.cos_o_power);
 }
@@ -57,3 +50,5 @@ void main() {
     if (HAS_EMISSIVE) radiance += point_emissive(point);
     store_radiance(point, radiance, 1.0);
 }
+
+#endif

@@ -1,0 +1,10 @@
+// One lobe by a pattern of half-vectors whose table is in the pipeline.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_control_flow_attributes : require
+
+#include "shade/shade.glsl"
+
+vec3 look_up_lobe(LobeView v, SurfaceLobe lobe, LobeRecord record, vec2 albedo, MapRecord map) {
+    return finish_lobe(v, gather_constant(v), lobe.specular, lobe.grazing, albedo);
+}
