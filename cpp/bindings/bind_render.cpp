@@ -176,7 +176,7 @@ std::shared_ptr<render::Frame> render_scene(render::Renderer& renderer, const Sc
 
 void bind_render(py::module_& m) {
     py::class_<render::Frame, std::shared_ptr<render::Frame>>(m, "FrameData",
-                                                              "Pictures of one frame, copied when asked for.")
+                                                              "Pictures of one frame, made when asked for.")
         .def_property_readonly(
             "color", [](const FramePointer& frame) { return view_channels(frame, 0, 3); },
             "(h, w, 3) float32, linear radiance; a view of four channels side by side.")

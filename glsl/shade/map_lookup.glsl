@@ -65,15 +65,14 @@ CubePlace place_on_cube(vec3 direction) {
 
 PairAim aim_pairs(CubePlace cube, int cube_begin, int level) {
     float s = intBitsToFloat((127 + LAST_LEVEL - level) << 23);
-    const float n = float(1 << LAST_LEVEL);
     float half_size = 0.5 * s;
     vec2 place = cube.uv * half_size + (half_size + 0.5); // texel k lies at k + 1, behind the border
-    vec2 texel = vec2(ivec2(place));
+    ivec2 texel = ivec2(place);
     PairAim aim;
     aim.pitch = int(s) + 1;
-    float before = n * (8.0 * n + 36.0) - s * (8.0 * s + 36.0) + 12.0 * float(level);
-    aim.at = cube_begin + int(before + ((cube.face * (s + 2.0) + texel.y) * (s + 1.0) + texel.x));
-    aim.fraction = place - texel;
+    // In integers: a cube of faces of 2048 has more pairs than a float32 can count.
+    aim.at = cube_begin + pairs_before(level, int(s)) + (int(cube.face) * (aim.pitch + 1) + texel.y) * aim.pitch + texel.x;
+    aim.fraction = place - vec2(texel);
     return aim;
 }
 

@@ -102,6 +102,19 @@ def test_several_maps_share_one_buffer(software, sampler_device):
     assert np.quantile(difference / frames[1].color.mean(), 0.999) < 1e-3
 
 
+def test_largest_maps_are_read_where_they_lie(software, sampler_device, rng):
+    """A cube of faces of 2048 has more pairs than a float32 can count."""
+    texels = rng.uniform(0.5, 2, (6, 2048, 2048, 1)).astype(np.float32)
+    scene = burnish.Scene()
+    scene.environment = burnish.Environment.from_faces(np.repeat(texels, 3, axis=-1))
+    camera = burnish.Camera(np.eye(4))
+    frames = [
+        burnish.render(scene, camera, (96, 128), device=one).color for one in (software, sampler_device)
+    ]
+    # Float32 places a lookup within 2^-12 of a texel here.
+    np.testing.assert_allclose(*frames, atol=2e-3)
+
+
 def test_report_says_which_lookup_ran_and_why(software):
     scene = burnish.Scene.sphere(burnish.Material(lobes=[burnish.KurtLobe(roughness=0.2)]))
     scene.environment = environments.spots(1, 32)
