@@ -60,6 +60,11 @@ bool any_lobe(const Material& material, const std::function<bool(const KurtLobe&
     return std::any_of(material.lobes.begin(), material.lobes.end(), asks);
 }
 
+size_t software_set_count(const Plan& plan) {
+    return size_t(std::count_if(plan.map_sets.begin(), plan.map_sets.end(),
+                                [](const MapSet& set) { return set.lookup == MapLookup::software; }));
+}
+
 } // namespace
 
 bool has_texture(const Material& material, TextureUse MetallicRoughness::*which) {
@@ -188,14 +193,13 @@ void add_effect_lines(const Scene& scene, Plan& plan) {
                                           [](const auto& one) { return one->rotation != glm::mat3(1.0f); });
     plan.effects.push_back({"map rotation", has_rotation,
                             has_rotation ? "an environment is turned" : "no environment is turned"});
-    const auto software = std::count_if(plan.map_sets.begin(), plan.map_sets.end(),
-                                        [](const MapSet& set) { return set.lookup == MapLookup::software; });
+    const size_t software = software_set_count(plan);
     const bool is_too_large =
-        plan.settings.lookup.wanted == MapLookup::software && size_t(software) < plan.map_sets.size();
+        plan.settings.lookup.wanted == MapLookup::software && software < plan.map_sets.size();
     plan.effects.push_back(
         {"software lookup", software > 0,
-         is_too_large ? message("maps of ", plan.map_sets.size() - size_t(software), " of ",
-                                plan.map_sets.size(), " sizes are too large for one of the device's buffers")
+         is_too_large ? message("maps of ", plan.map_sets.size() - software, " of ", plan.map_sets.size(),
+                                " sizes are too large for one of the device's buffers")
                       : plan.settings.lookup.reason});
     plan.effects.push_back({"background", plan.has_background,
                             plan.has_background     ? "the environment is shown where no object is"
@@ -222,9 +226,7 @@ void add_pass_lines(Plan& plan) {
     if (has_lookups && std::holds_alternative<Matched>(plan.settings.sampler))
         add("prefilter",
             "levels that are round on the sphere, so that a lookup has one width everywhere, once per map");
-    if (std::any_of(plan.map_sets.begin(), plan.map_sets.end(),
-                    [](const MapSet& set) { return set.lookup == MapLookup::software; }))
-        add("pack", "pairs of texels for the software lookup, once per map");
+    if (software_set_count(plan) > 0) add("pack", "pairs of texels for the software lookup, once per map");
     add("surface", plan.has_varying
                        ? "rasterises into the wide G-buffer: textures or vertex colours vary over a surface"
                        : "rasterises into 8 bytes a pixel and depth");
