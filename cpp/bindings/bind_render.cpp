@@ -33,6 +33,17 @@ py::list effects_list(const std::vector<EffectLine>& effects) {
     return result;
 }
 
+py::list stopped_list(const render::Report& report) {
+    py::list result;
+    for (const render::StoppedValues& one : report.stopped) {
+        py::object first = py::int_(one.first);
+        if (report.width) first = py::make_tuple(one.first / report.width, one.first % report.width);
+        result.append(
+            py::dict(py::arg("pass") = one.pass, py::arg("count") = one.count, py::arg("first") = first));
+    }
+    return result;
+}
+
 py::dict report_dict(const render::Report& report) {
     py::list passes, classes;
     for (const vulkan::PassTime& pass : report.passes)
@@ -65,7 +76,7 @@ py::dict report_dict(const render::Report& report) {
     result["effects"] = effects_list(report.effects);
     result["classes"] = classes;
     result["triangles"] = report.triangles;
-    result["non_finite"] = report.non_finite;
+    result["stopped"] = stopped_list(report);
     result["standard_error"] = report.standard_error;
     std::vector<std::string> warnings = report.warnings;
     warnings.insert(warnings.end(), report.problems.begin(), report.problems.end());
@@ -121,6 +132,13 @@ py::array_t<float> normal_of(render::Frame& frame) {
     return make_array(std::move(values), picture_shape(frame, 3));
 }
 
+/// In strict mode nothing comes back where a value was stopped.
+void raise_if_stopped(const render::Report& report) {
+    if (report.stopped.empty()) return;
+    PyErr_SetString(PyExc_FloatingPointError, report.problems.back().c_str());
+    throw py::error_already_set();
+}
+
 /// Points give no report back: what went wrong becomes a Python warning.
 void warn(const render::Report& report) {
     for (const std::string& text : report.problems)
@@ -133,8 +151,8 @@ std::span<const glm::vec3> directions(const py::array_t<float, py::array::c_styl
 
 py::array_t<float> shade_points(render::Renderer& renderer, const std::shared_ptr<Environment>& environment,
                                 const Material& material, const Sampler& sampler, const py::array& normals,
-                                const py::array& tangents, const py::array& views,
-                                const std::string& filter) {
+                                const py::array& tangents, const py::array& views, const std::string& filter,
+                                bool is_strict) {
     const auto normal_array = require_array<float>(normals, "normals", {any, 3});
     const auto tangent_array = require_array<float>(tangents, "tangents", {any, 3});
     const auto view_array = require_array<float>(views, "views", {any, 3});
@@ -147,6 +165,7 @@ py::array_t<float> shade_points(render::Renderer& renderer, const std::shared_pt
         const py::gil_scoped_release release;
         radiance = renderer.shade(environment, material, points, settings, &report);
     }
+    if (is_strict) raise_if_stopped(report);
     warn(report);
     std::vector<float> values(radiance.size() * 3);
     std::memcpy(values.data(), radiance.data(), values.size() * sizeof(float));
@@ -156,7 +175,7 @@ py::array_t<float> shade_points(render::Renderer& renderer, const std::shared_pt
 std::shared_ptr<render::Frame> render_scene(render::Renderer& renderer, const Scene& scene,
                                             const Camera* camera, uint32_t height, uint32_t width,
                                             const Sampler& sampler, int64_t spp, const std::string& filter,
-                                            const std::optional<ProgressFunction>& progress) {
+                                            const std::optional<ProgressFunction>& progress, bool is_strict) {
     render::RenderSettings settings;
     settings.width = width;
     settings.height = height;
@@ -167,9 +186,14 @@ std::shared_ptr<render::Frame> render_scene(render::Renderer& renderer, const Sc
             (*progress)(fraction, text);
             if (PyErr_CheckSignals() != 0) throw py::error_already_set();
         };
-    const py::gil_scoped_release release;
-    return std::make_shared<render::Frame>(
-        renderer.render(scene, camera ? *camera : scene.default_camera(), settings));
+    FramePointer frame;
+    {
+        const py::gil_scoped_release release;
+        frame = std::make_shared<render::Frame>(
+            renderer.render(scene, camera ? *camera : scene.default_camera(), settings));
+    }
+    if (is_strict) raise_if_stopped(frame->report);
+    return frame;
 }
 
 } // namespace
@@ -193,10 +217,11 @@ void bind_render(py::module_& m) {
 
     m.def("render", &render_scene, py::arg("device"), py::arg("scene"), py::arg("camera").none(true),
           py::arg("height"), py::arg("width"), py::arg("sampler"), py::arg("spp"), py::arg("filter"),
-          py::arg("progress").none(true), "Render one frame; burnish.render documents the arguments.");
+          py::arg("progress").none(true), py::arg("is_strict") = false,
+          "Render one frame; burnish.render documents the arguments.");
     m.def("shade", &shade_points, py::arg("device"), py::arg("environment"), py::arg("material"),
           py::arg("sampler"), py::arg("normals"), py::arg("tangents"), py::arg("views"), py::arg("filter"),
-          "Shade points; burnish.shade documents the arguments.");
+          py::arg("is_strict") = false, "Shade points; burnish.shade documents the arguments.");
     m.def(
         "time_lookups",
         [](render::Renderer& renderer, const std::shared_ptr<Environment>& environment,

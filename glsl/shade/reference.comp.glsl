@@ -124,10 +124,7 @@ void main() {
         batch += light;
     }
     if (!point.is_mine) return;
-    if (!is_finite(batch)) {
-        batch = vec3(0.0);
-        atomicAdd(counters.non_finite, 1u);
-    }
+    batch = stop_non_finite(batch, point.index, GUARD_REFERENCE);
     vec4 sum = push.batch == 0u ? vec4(0.0) : statistics[point.index];
     float luminance = dot(batch, vec3(0.2126, 0.7152, 0.0722));
     sum += vec4(batch, luminance * luminance);
@@ -139,5 +136,5 @@ void main() {
         radiance += point_diffuse(point) * irradiance_over_pi(map.irradiance, environment_from_world(map, point.frame[2]));
     radiance *= map.radiance_scale;
     if (HAS_EMISSIVE) radiance += point_emissive(point);
-    store_radiance(point, radiance, 1.0);
+    store_radiance(point, radiance, 1.0, GUARD_REFERENCE);
 }

@@ -3,7 +3,7 @@
 #define BURNISH_SHADE_SURFACE_POINT
 
 #include "lib/frame.glsl"
-#include "shade/bindings.glsl"
+#include "shade/guard.glsl"
 
 struct SurfaceLobe {
     vec3 specular; // weight * r0
@@ -115,20 +115,10 @@ mat3 lobe_frame(mat3 frame, LobeRecord record) {
                 record.rotation_cos * frame[1] - record.rotation_sin * frame[0], frame[2]);
 }
 
-bool is_finite(vec3 v) {
-    // By bits: isnan and isinf may be optimised away.
-    uvec3 exponent = floatBitsToUint(v) & 0x7f800000u;
-    return exponent.x != 0x7f800000u && exponent.y != 0x7f800000u && exponent.z != 0x7f800000u;
-}
-
-// The only way into the picture: what is not finite becomes black and is counted.
-void store_radiance(PointToShade point, vec3 radiance, float alpha) {
+// The only way into the picture.
+void store_radiance(PointToShade point, vec3 radiance, float alpha, uint pass_index) {
     if (!point.is_mine) return;
-    if (!is_finite(radiance)) {
-        radiance = vec3(0.0);
-        atomicAdd(counters.non_finite, 1u);
-    }
-    radiance_out[point.index] = vec4(radiance, alpha);
+    radiance_out[point.index] = vec4(stop_non_finite(radiance, point.index, pass_index), alpha);
 }
 
 #endif

@@ -83,6 +83,12 @@ SHARED_CONST uint SPEC_SAMPLES = 100u; // four floats a sample follow
 
 SHARED_CONST uint LOOKUP_SAMPLER = 0u; // the device's
 SHARED_CONST uint LOOKUP_SOFTWARE = 1u;   // our own: see shared/texel_pairs.h
+// Passes that stop what is not finite.
+SHARED_CONST uint GUARD_SHADE = 0u;
+SHARED_CONST uint GUARD_BACKGROUND = 1u;
+SHARED_CONST uint GUARD_REFERENCE = 2u;
+SHARED_CONST uint GUARD_COUNT = 3u;
+
 SHARED_CONST uint SOURCE_PIXELS = 0u;
 SHARED_CONST uint SOURCE_POINTS = 1u;
 SHARED_CONST uint ALPHA_ZERO = 0u;    // cos_i

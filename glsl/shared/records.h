@@ -77,14 +77,12 @@ struct SurfacePoint {
 };
 SHARED_SIZE(SurfacePoint, 48)
 
-// What a frame counts while it runs.
+// Values that passes stopped because they were not finite, by GUARD_*.
 struct Counters {
-    uint non_finite; // values stopped on their way into the picture
-    uint pad0;
-    uint pad1;
-    uint pad2;
+    uint stopped[4];
+    uint first[4]; // complement of the lowest index into the picture or the list of points; 0 where none was stopped
 };
-SHARED_SIZE(Counters, 16)
+SHARED_SIZE(Counters, 32)
 
 // What the surface pass needs of a metallic-roughness material to map it at every pixel.
 struct SurfaceRecord {

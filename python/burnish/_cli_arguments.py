@@ -142,6 +142,9 @@ def make_parser() -> argparse.ArgumentParser:
     render.add_argument(
         "--error-estimate", action="store_true", help="estimate every pixel's error; channel error.Y of .exr"
     )
+    render.add_argument(
+        "--strict", action="store_true", help="fail where a value is not finite, instead of a black pixel"
+    )
     render.add_argument("--compare", action="store_true", help="also render the reference, print the error")
     render.add_argument("-q", "--quiet", action="store_true", help="do not print the report")
 

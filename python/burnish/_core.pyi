@@ -325,6 +325,7 @@ def shade(
     tangents: _Float32,
     views: _Float32,
     filter: str,
+    is_strict: bool = False,
 ) -> _Float32: ...
 def environment_pyramid(device: Device, environment: Environment, filter: str) -> list[_Float32]: ...
 def environment_prefiltered(device: Device, environment: Environment, filter: str) -> _Prefiltered: ...
@@ -344,6 +345,7 @@ def render(
     spp: int,
     filter: str,
     progress: _Progress,
+    is_strict: bool = False,
 ) -> FrameData: ...
 def capture(
     device: Device,

@@ -105,6 +105,7 @@ def run_render(options: argparse.Namespace) -> int:
         target_error=options.target_error,
         verify=options.verify,
         error_estimate=options.error_estimate,
+        strict=options.strict,
     )
     for name in options.output:
         frame.save(name, exposure=options.exposure)
@@ -214,7 +215,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         # The reader, such as head, has seen enough. What is still buffered must not raise again at exit.
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         return 0
-    except (ValueError, OSError, RuntimeError, ImportError, MemoryError) as error:
+    except (ValueError, OSError, RuntimeError, ImportError, MemoryError, FloatingPointError) as error:
         text = " ".join(str(error).split()) or type(error).__name__
         print(f"burnish {options.command}: error: {text}", file=sys.stderr)
         return 2

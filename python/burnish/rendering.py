@@ -52,6 +52,7 @@ def shade(
     views: FloatArray,
     filter: Filter = "gauss6",
     device: _core.Device | None = None,
+    strict: bool = False,
 ) -> FloatArray:
     """Shade surface points with the kernel that shades pictures.
 
@@ -73,6 +74,8 @@ def shade(
         Reduction filter of the environment's pyramid.
     device : Device or None
         None: the best one, opened once.
+    strict : bool
+        Raise where a value was not finite, instead of a black point and a warning.
 
     Returns
     -------
@@ -88,6 +91,8 @@ def shade(
     ------
     ValueError
         If an array has another type, shape or layout, or holds a number that is not finite.
+    FloatingPointError
+        If `strict` and a value was not finite; it says how many, where, and in which pass.
     VulkanError
         If no device can do it.
     """
@@ -97,7 +102,9 @@ def shade(
     _require_directions(views, "views", len(normals))
     if len(normals) == 0:
         return np.zeros((0, 3), np.float32)
-    return _core.shade(device or default_device(), env, material, sampler, normals, tangents, views, filter)
+    return _core.shade(
+        device or default_device(), env, material, sampler, normals, tangents, views, filter, strict
+    )
 
 
 def require_size(size: tuple[int, int]) -> tuple[int, int]:
@@ -129,6 +136,7 @@ def render(
     target_error: float | None = None,
     verify: bool = False,
     error_estimate: bool = False,
+    strict: bool = False,
 ) -> Frame:
     """Render one frame.
 
@@ -161,6 +169,8 @@ def render(
     error_estimate : bool
         Also estimate the error of every pixel, without a reference: ``frame.error_estimate``. It takes a
         second frame of fewer samples.
+    strict : bool
+        Raise where a value was not finite, instead of a black pixel and a line in the report.
 
     Returns
     -------
@@ -176,6 +186,8 @@ def render(
     ------
     ValueError
         If an argument or the scene is out of its documented range.
+    FloatingPointError
+        If `strict` and a value was not finite; it says how many, where, and in which pass.
     VulkanError
         If no device can do it.
     """
@@ -204,13 +216,13 @@ def render(
         from burnish.advice.error_estimate import companion
 
         other = companion(sampler)  # refuses a sampler that has none before any work is done
-    data = _core.render(device, scene, camera, height, width, sampler, int(spp), filter, progress)
+    data = _core.render(device, scene, camera, height, width, sampler, int(spp), filter, progress, strict)
     report = dict(data.report) | ({"prediction": prediction} if prediction else {})
     frame = Frame(data.color, data.alpha, lambda: data.depth, lambda: data.normal, Report(report))
     if error_estimate:
         from burnish.advice.error_estimate import estimate_errors
 
-        fewer = _core.render(device, scene, camera, height, width, other, int(spp), filter, None)
+        fewer = _core.render(device, scene, camera, height, width, other, int(spp), filter, None, strict)
         frame.error_estimate = estimate_errors(sampler, frame.color, fewer.color, frame.alpha)
     return frame
 

@@ -31,7 +31,7 @@ class Report:
     ----------
     data : mapping
         As the renderer fills it: version, device, size, spp, filter, sampler, passes, compile_ms, wall_ms,
-        effects, classes, non_finite, standard_error, warnings, ignored_extensions; prediction where an error
+        effects, classes, stopped, standard_error, warnings, ignored_extensions; prediction where an error
         was asked for.
     """
 
@@ -85,9 +85,14 @@ class Report:
         return str(self._data.get("filter", ""))
 
     @property
+    def stopped(self) -> list[dict[str, Any]]:
+        """Where values were not finite and became black: ``pass``, ``count``, and ``first``, (row, column)."""
+        return list(self._data.get("stopped", []))
+
+    @property
     def non_finite(self) -> int:
-        """Values that were NaN or infinite on their way into the picture, and were stopped."""
-        return int(self._data.get("non_finite", 0))
+        """Values that all passes stopped."""
+        return sum(int(entry["count"]) for entry in self.stopped)
 
     @property
     def standard_error(self) -> float:
@@ -205,8 +210,6 @@ class Report:
 
     def _notes(self) -> list[str]:
         lines = [f"warning: {warning}" for warning in self.warnings]
-        if self.non_finite:
-            lines.append(f"warning: {self.non_finite} values were NaN or infinite and were stopped")
         if self.ignored_extensions:
             lines.append(f"ignored glTF extensions: {', '.join(self.ignored_extensions)}")
         return lines

@@ -17,6 +17,13 @@ struct ClassReport {
     std::string reason;
 };
 
+/// Values that one pass stopped because they were not finite: they became black.
+struct StoppedValues {
+    const char* pass;
+    uint32_t count;
+    uint32_t first; ///< lowest index: of the pixel, counted by rows, or of the point
+};
+
 /// What a frame cost and did. Times are milliseconds by the device's clock unless said otherwise.
 struct Report {
     std::string device_name, device_driver;
@@ -32,11 +39,11 @@ struct Report {
     std::vector<EffectLine> effects;
     std::vector<ClassReport> classes;
     uint64_t triangles = 0;
-    uint64_t non_finite = 0;           ///< values stopped on the device
-    double standard_error = 0.0;       ///< relative, reached by a progressive reference; else 0
-    uint32_t reference_samples = 0;    ///< per pixel, of a progressive reference
-    std::vector<std::string> warnings; ///< of the scene and its maps, known before anything ran
-    std::vector<std::string> problems; ///< that this run met
+    std::vector<StoppedValues> stopped; ///< by pass; empty when all was finite
+    double standard_error = 0.0;        ///< relative, reached by a progressive reference; else 0
+    uint32_t reference_samples = 0;     ///< per pixel, of a progressive reference
+    std::vector<std::string> warnings;  ///< of the scene and its maps, known before anything ran
+    std::vector<std::string> problems;  ///< that this run met
     std::vector<std::string> ignored_extensions;
 };
 

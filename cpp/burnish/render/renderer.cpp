@@ -1,6 +1,7 @@
 #include "burnish/render/renderer.h"
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 
@@ -30,10 +31,20 @@ std::vector<T> read_buffer(const vulkan::Buffer& buffer, size_t count) {
     return result;
 }
 
-void add_non_finite(Report& report, const vulkan::Buffer& counters) {
-    report.non_finite = read_buffer<shared::Counters>(counters, 1)[0].non_finite;
-    if (report.non_finite)
-        report.problems.push_back(message(report.non_finite, " values were not finite and became black"));
+void add_stopped(Report& report, const vulkan::Buffer& counters) {
+    static constexpr std::array<const char*, shared::GUARD_COUNT> passes = {"shade", "background",
+                                                                            "reference"};
+    const shared::Counters read = read_buffer<shared::Counters>(counters, 1)[0];
+    for (uint32_t k = 0; k < shared::GUARD_COUNT; ++k) {
+        if (read.stopped[k] == 0) continue;
+        const uint32_t first = ~read.first[k];
+        report.stopped.push_back({passes[k], read.stopped[k], first});
+        const std::string place =
+            report.width ? message("row ", first / report.width, ", column ", first % report.width)
+                         : message("point ", first);
+        report.problems.push_back(message("pass ", passes[k], ": ", read.stopped[k],
+                                          " values were not finite and became black, the first at ", place));
+    }
 }
 
 } // namespace
@@ -187,7 +198,7 @@ Frame Renderer::render(const Scene& scene, const Camera& camera, const RenderSet
     add_pass_times(times, {{"read back", read_watch.milliseconds()}});
     times.insert(times.end(), frame.report.passes.begin(), frame.report.passes.end());
     frame.report.passes = std::move(times);
-    add_non_finite(frame.report, targets.counters);
+    add_stopped(frame.report, targets.counters);
     if (!is_shared) frame.targets.reset();
     frame.report.wall_ms = wall.milliseconds();
     return frame;
@@ -245,7 +256,7 @@ std::vector<glm::vec3> Renderer::shade(const std::shared_ptr<const Environment>&
         add_pass_times(times, commands.pass_times());
     }
     const std::vector<glm::vec4> result = read_buffer<glm::vec4>(radiance, count);
-    add_non_finite(local, counters);
+    add_stopped(local, counters);
     times.insert(times.end(), local.passes.begin(), local.passes.end());
     local.passes = std::move(times);
     local.wall_ms = wall.milliseconds();

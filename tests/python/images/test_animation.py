@@ -38,8 +38,8 @@ def frames(environment, roughness: Callable, sampler, device):
     return np.stack(colors), covered
 
 
-# Samples of the brushed lobe are narrower than a texel of faces of 64: a spot that passes there is a step that
-# no sampler of a few texels can hide. The truth is the same light's, summed over the smaller map for speed.
+# Samples of the brushed lobe are narrower than a texel of faces of 64: a spot that passes there is a step
+# that no sampler of a few texels can hide. The truth is the same light's, from the smaller map for speed.
 @pytest.mark.slow
 @pytest.mark.parametrize(
     ("roughness", "face_size"),

@@ -19,8 +19,11 @@ DATA = {
         {"name": "anisotropy", "on": False, "reason": "both slopes of every lobe are equal"},
     ],
     "classes": [],
-    "non_finite": 3,
-    "warnings": ["the lobe of gold gains energy"],
+    "stopped": [
+        {"pass": "shade", "count": 2, "first": [4, 7]},
+        {"pass": "background", "count": 1, "first": [0, 0]},
+    ],
+    "warnings": ["the lobe of gold gains energy", "pass shade: 2 values were not finite"],
     "ignored_extensions": ["KHR_materials_sheen"],
 }
 
@@ -58,7 +61,7 @@ def test_printed_report_is_a_price_list():
     assert "on: fresnel" in lines
     assert "  anisotropy  both slopes of every lobe are equal" in lines
     assert "warning: the lobe of gold gains energy" in lines
-    assert "warning: 3 values were NaN or infinite and were stopped" in lines
+    assert "warning: pass shade: 2 values were not finite" in lines
     assert "ignored glTF extensions: KHR_materials_sheen" in lines
 
 
