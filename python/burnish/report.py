@@ -86,7 +86,7 @@ class Report:
 
     @property
     def stopped(self) -> list[dict[str, Any]]:
-        """Where values were not finite and became black: ``pass``, ``count``, and ``first``, (row, column)."""
+        """Where values were not finite and became black: ``pass``, ``count``, ``first`` (row, column)."""
         return list(self._data.get("stopped", []))
 
     @property

@@ -40,6 +40,7 @@ def test_render_takes_the_documented_arguments():
         "target_error",
         "verify",
         "error_estimate",
+        "strict",
     ]
     assert defaults(burnish.render)["size"] == (540, 960)
     assert defaults(burnish.render)["filter"] == "gauss6"
@@ -53,9 +54,9 @@ def test_advise_takes_the_documented_arguments():
 
 
 def test_shade_takes_the_documented_arguments():
-    expected = ["env", "material", "sampler", "normals", "tangents", "views", "filter", "device"]
+    expected = ["env", "material", "sampler", "normals", "tangents", "views", "filter", "device", "strict"]
     assert names(burnish.shade) == expected
-    assert defaults(burnish.shade) == {"filter": "gauss6", "device": None}
+    assert defaults(burnish.shade) == {"filter": "gauss6", "device": None, "strict": False}
 
 
 def test_capture_takes_the_documented_arguments():
