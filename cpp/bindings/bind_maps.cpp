@@ -98,6 +98,13 @@ void bind_maps(py::module_& m) {
           "List of (pass, milliseconds) of making one prefiltered map, for benchmarks.");
     m.def("pyramid_times", &pyramid_times, py::arg("device"), py::arg("environment"), py::arg("filter"),
           "List of (pass, milliseconds) of making one map's pyramid, for benchmarks.");
+    m.def(
+        "time_blits",
+        [](render::Renderer& renderer, const EnvironmentPointer& environment) {
+            return renderer.time_blits(environment);
+        },
+        py::arg("device"), py::arg("environment"),
+        "Milliseconds of making one map's levels by the device's blits, not seamless; for benchmarks.");
 }
 
 } // namespace burnish

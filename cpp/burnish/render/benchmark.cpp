@@ -1,8 +1,9 @@
-// The part of Renderer that measures lookups apart from shading.
+// The part of Renderer that measures what an engine of the device's own functions would take.
 #include <span>
 
 #include "burnish/render/renderer.h"
 #include "burnish/vulkan/device.h"
+#include "burnish/vulkan/transfer.h"
 #include "shared/constants.h"
 
 namespace burnish::render {
@@ -41,6 +42,32 @@ std::vector<double> Renderer::time_lookups(const std::shared_ptr<const Environme
         times.push_back(commands.pass_times()[0].milliseconds);
     }
     return times;
+}
+
+double Renderer::time_blits(const std::shared_ptr<const Environment>& environment) {
+    const std::lock_guard lock(mutex_);
+    vulkan::ImageSettings settings;
+    settings.format = VK_FORMAT_R16G16B16A16_SFLOAT;
+    settings.width = settings.height = environment->face_size();
+    settings.levels = vulkan::full_levels(settings.width, settings.height);
+    settings.layers = 6;
+    settings.is_cube = true;
+    vulkan::Image image(device_, settings);
+    vulkan::ImageRegion from, to;
+    from.layer_count = to.layer_count = 6;
+    const std::vector<uint16_t> texels = environment->half_rgba();
+    vulkan::upload(image, from, std::as_bytes(std::span(texels)), VK_IMAGE_LAYOUT_GENERAL);
+    vulkan::Commands commands(device_);
+    commands.begin_pass("blits");
+    for (uint32_t level = 1; level < settings.levels; ++level) {
+        from.level = level - 1;
+        to.level = level;
+        commands.blit(image, from, image, to, VK_FILTER_LINEAR);
+        commands.barrier();
+    }
+    commands.end_pass();
+    commands.submit();
+    return commands.pass_times()[0].milliseconds;
 }
 
 } // namespace burnish::render

@@ -49,19 +49,23 @@ EnvironmentMaps::EnvironmentMaps(std::shared_ptr<const vulkan::Device> device, P
     image_ = vulkan::Image(device, settings);
 
     const auto start = std::chrono::steady_clock::now();
-    for (uint32_t cube = 0; cube < cube_count; ++cube) {
-        const std::vector<uint16_t> texels = environments[cube]->half_rgba();
+    std::vector<std::vector<uint16_t>> texels;
+    for (const auto& environment : environments)
+        texels.push_back(environment->half_rgba());
+    const bool is_staged = filter && pyramid.stage(image_, texels, *filter);
+    for (uint32_t cube = 0; cube < cube_count && !is_staged; ++cube) {
         vulkan::ImageRegion faces;
         faces.base_layer = 6 * cube;
         faces.layer_count = 6;
-        vulkan::upload(image_, faces, std::as_bytes(std::span(texels)));
+        vulkan::upload(image_, faces, std::as_bytes(std::span(texels[cube])));
     }
     const std::chrono::duration<double, std::milli> upload_time = std::chrono::steady_clock::now() - start;
 
     vulkan::Commands commands(device);
     if (filter) {
         commands.begin_pass("pyramid");
-        pyramid.record(commands, image_, 0, cube_count, *filter);
+        pyramid.record(commands, image_, 0, cube_count, *filter,
+                       is_staged ? Pyramid::Finest::staged : Pyramid::Finest::in_image);
         commands.end_pass();
     } else {
         commands.transition(image_, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);

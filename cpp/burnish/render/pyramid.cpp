@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cstring>
 
 #include "spirv/pyramid_border_comp.h"
 #include "spirv/pyramid_reduce_comp.h"
@@ -73,10 +74,6 @@ void require_cubes(const vulkan::Image& cubes, uint32_t first_cube, uint32_t cub
         throw std::invalid_argument(message("cube_count: expected 1 or more of the image's ",
                                             settings.layers / 6, " cubes, got ", cube_count, " from cube ",
                                             first_cube));
-    }
-    if (cubes.layout() == VK_IMAGE_LAYOUT_UNDEFINED) {
-        throw std::invalid_argument(
-            "cubes: expected an image with level 0 written, got one in layout UNDEFINED");
     }
 }
 
@@ -150,29 +147,67 @@ void Pyramid::record_levels(vulkan::Commands& commands, const Scratch& scratch, 
     }
 }
 
+// Powers of two, so that few sizes of scratch arise.
+uint32_t Pyramid::batch_size(uint32_t face_size, uint32_t cube_count) const {
+    const uint64_t most_pairs = std::min<uint64_t>(SCRATCH_PAIRS, device_->limits().maxTexelBufferElements);
+    uint32_t batch = std::bit_floor(cube_count);
+    while (batch > 1 && scratch_pairs(face_size, batch) > most_pairs)
+        batch /= 2;
+    return batch;
+}
+
+bool Pyramid::stage(vulkan::Image& cubes, std::span<const std::vector<uint16_t>> texels,
+                    PyramidFilter filter) {
+    const auto cube_count = static_cast<uint32_t>(texels.size());
+    require_cubes(cubes, 0, cube_count);
+    const uint32_t size = cubes.settings().width;
+    if (size == 1 || batch_size(size, cube_count) != cube_count) return false;
+    const Scratch& room = scratch(size, cube_count, filter);
+    if (!room.buffer.is_mapped()) return false;
+
+    const VkBufferImageCopy finest = level_copy(0, size, 0, 0, cube_count);
+    const uint64_t row_bytes = uint64_t{size} * TEXEL_BYTES;
+    for (uint32_t layer = 0; layer < 6 * cube_count; ++layer) {
+        const auto* source =
+            reinterpret_cast<const std::byte*>(texels[layer / 6].data()) + layer % 6 * size * row_bytes;
+        std::byte* target = room.buffer.mapped().data() + finest.bufferOffset +
+                            uint64_t{layer} * face_pairs(size) * PAIR_BYTES;
+        for (uint32_t row = 0; row < size; ++row)
+            std::memcpy(target + uint64_t{row} * row_pairs(size) * PAIR_BYTES, source + row * row_bytes,
+                        row_bytes);
+    }
+    vulkan::Commands commands(device_);
+    commands.transition(cubes, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL);
+    vkCmdCopyBufferToImage(commands.handle(), room.buffer.handle(), cubes.handle(), cubes.layout(), 1,
+                           &finest);
+    commands.submit();
+    return true;
+}
+
 void Pyramid::record(vulkan::Commands& commands, vulkan::Image& cubes, uint32_t first_cube,
-                     uint32_t cube_count, PyramidFilter filter) {
+                     uint32_t cube_count, PyramidFilter filter, Finest finest) {
     require_cubes(cubes, first_cube, cube_count);
+    if (cubes.layout() == VK_IMAGE_LAYOUT_UNDEFINED) {
+        throw std::invalid_argument(
+            "cubes: expected an image with level 0 written, got one in layout UNDEFINED");
+    }
     const uint32_t face_size = cubes.settings().width;
     const bool is_general = cubes.layout() == VK_IMAGE_LAYOUT_GENERAL;
     const auto move_to = [&](VkImageLayout layout) {
         commands.transition(cubes, is_general ? VK_IMAGE_LAYOUT_GENERAL : layout);
     };
-    const uint64_t most_pairs = std::min<uint64_t>(SCRATCH_PAIRS, device_->limits().maxTexelBufferElements);
-    // Powers of two, so that few sizes of scratch arise.
-    uint32_t batch = std::bit_floor(cube_count);
-    while (batch > 1 && scratch_pairs(face_size, batch) > most_pairs)
-        batch /= 2;
-
+    uint32_t batch = batch_size(face_size, cube_count);
     for (uint32_t done = 0; done < cube_count && face_size > 1; done += batch) {
         while (batch > cube_count - done)
             batch /= 2;
         const Scratch& room = scratch(face_size, batch, filter);
-        move_to(VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL);
-        const VkBufferImageCopy finest = level_copy(0, face_size, 0, first_cube + done, batch);
-        vkCmdCopyImageToBuffer(commands.handle(), cubes.handle(), cubes.layout(), room.buffer.handle(), 1,
-                               &finest);
-        commands.barrier();
+        if (finest == Finest::in_image) {
+            move_to(VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL);
+            const VkBufferImageCopy copy = level_copy(0, face_size, 0, first_cube + done, batch);
+            vkCmdCopyImageToBuffer(commands.handle(), cubes.handle(), cubes.layout(), room.buffer.handle(), 1,
+                                   &copy);
+            commands.barrier();
+        }
         record_levels(commands, room, batch, filter);
 
         move_to(VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL);

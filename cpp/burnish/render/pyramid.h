@@ -7,7 +7,9 @@
 
 #include <map>
 #include <memory>
+#include <span>
 #include <string>
+#include <vector>
 
 namespace burnish {
 
@@ -25,6 +27,9 @@ namespace burnish {
 /// once.
 class Pyramid {
 public:
+    /// Where level 0 is found.
+    enum class Finest { in_image, staged };
+
     explicit Pyramid(std::shared_ptr<const vulkan::Device> device);
 
     /// Records the work, between begin_pass and end_pass of the caller if it is to be timed. `cubes` is a
@@ -34,7 +39,12 @@ public:
     /// std::invalid_argument naming what does not fit, and VulkanError where the device's texel buffers are
     /// too small for one such cube.
     void record(vulkan::Commands& commands, vulkan::Image& cubes, uint32_t first_cube, uint32_t cube_count,
-                PyramidFilter filter);
+                PyramidFilter filter, Finest finest = Finest::in_image);
+
+    /// Where the host sees the device's memory and all cubes of such an image can be done at once: writes
+    /// level 0, half RGBA of six faces for each cube, into the buffer and from there into the image, so that
+    /// `record` need not copy it back. Submits and waits. False where that cannot be: upload the image then.
+    bool stage(vulkan::Image& cubes, std::span<const std::vector<uint16_t>> texels, PyramidFilter filter);
 
 private:
     /// Invocations of a workgroup of the reduction.
@@ -57,6 +67,8 @@ private:
     };
 
     const vulkan::ComputePipeline& reduction(PyramidFilter filter, const Group& group);
+    /// Cubes that are done at once.
+    uint32_t batch_size(uint32_t face_size, uint32_t cube_count) const;
     const Scratch& scratch(uint32_t face_size, uint32_t cube_count, PyramidFilter filter);
     void record_levels(vulkan::Commands& commands, const Scratch& scratch, uint32_t cube_count,
                        PyramidFilter filter);

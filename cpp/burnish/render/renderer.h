@@ -72,6 +72,9 @@ public:
     std::vector<double> time_lookups(const std::shared_ptr<const Environment>& environment,
                                      const Regular& sampler, float roughness, uint32_t repeats);
 
+    /// Milliseconds of the levels of one map, made by the device's blits; for benchmarks.
+    double time_blits(const std::shared_ptr<const Environment>& environment);
+
 private:
     struct CachedMaps {
         std::vector<std::weak_ptr<const Environment>> environments;
