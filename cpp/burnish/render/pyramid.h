@@ -35,6 +35,8 @@ public:
     /// too small for one such cube.
     void record(vulkan::Commands& commands, vulkan::Image& cubes, uint32_t first_cube, uint32_t cube_count,
                 PyramidFilter filter);
+    /// Gives back the room that is kept for the next maps.
+    void free_scratches() { scratches_.clear(); }
 
 private:
     /// Invocations of a workgroup of the reduction.

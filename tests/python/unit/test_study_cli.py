@@ -93,6 +93,16 @@ def test_an_interruption_writes_what_there_is(monkeypatch, tmp_path, capsys):
     assert "interrupted after 3 rows; the same command takes up from here" in capsys.readouterr().err
 
 
+def test_an_interruption_without_a_journal_names_the_option(monkeypatch, capsys):
+    def sweep(*arguments, **named):
+        raise StudyInterrupted(run_cells([make_cell(FakeSubject())], Journal(), PictureStore(), True, False))
+
+    monkeypatch.setattr(burnish.study, "sweep", sweep)
+    assert cli.main(["study", "sphere"]) == 130
+    err = capsys.readouterr().err
+    assert err == "burnish study: interrupted after 3 rows; --journal FILE would let it go on\n"
+
+
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [
