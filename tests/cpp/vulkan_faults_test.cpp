@@ -112,6 +112,19 @@ TEST(Faults, ShaderThatDoesNotCompileIsNamed) {
     EXPECT_EQ(CopyWords(device).run(), counting_words(1000));
 }
 
+TEST(Faults, DamagedShaderIsNamed) {
+    const auto device = Device::create({.validation = false});
+    if (device->info().name.find("llvmpipe") == std::string::npos)
+        GTEST_SKIP() << "the driver need not notice, and may crash";
+    std::vector<uint32_t> words(std::begin(probe_copy_words_comp_spv), std::end(probe_copy_words_comp_spv));
+    for (uint32_t& word : words)
+        if (word == 0x000100fdu) word = 0x0001fff0u; // OpReturn becomes an instruction that there is not
+    const Shader shader(device, "probe/damaged.comp", words);
+    expect_contains(error_text<VulkanError>([&] { ComputePipeline(device, shader); }),
+                    "probe/damaged.comp: expected the driver to compile it");
+    EXPECT_EQ(CopyWords(device).run(), counting_words(1000));
+}
+
 TEST(Faults, ForkedProcessIsToldToOpenItsOwnDevice) {
     const auto device = Device::create({.validation = false});
     const CopyWords probe(device);

@@ -36,7 +36,7 @@ def refusal(what, amount, limit):
     """The message, but for what was taken already."""
     return (
         rf"^{what}: expected {amount} MiB more memory on .*, got VK_ERROR_OUT_OF_DEVICE_MEMORY "
-        rf"with [\d.]+ MiB of the allowed {limit}\.0 MiB taken$"
+        rf"with [\d.]+ MiB of the allowed {limit}\.0+ MiB taken$"
     )
 
 
@@ -104,25 +104,27 @@ def test_maps_of_earlier_frames_make_room(device):
 
 
 def test_every_limit_gives_the_right_picture_or_an_error(device, expected):
+    scene, size = make_scene(spots(face_size=64)), (200, 300)
+    wanted = burnish.render(scene, size=size, device=device).color.copy()
     outcomes = []
-    for kibibytes in range(1024, 6 * 1024, 256):
-        small = limited(device, kibibytes / 1024)
+    for half_mebibytes in range(2, 25, 2):
+        small = limited(device, half_mebibytes / 2)
         try:
-            assert_works(small, expected)
+            for _ in range(2):
+                np.testing.assert_array_equal(burnish.render(scene, size=size, device=small).color, wanted)
             outcomes.append(True)
         except burnish.VulkanError as error:
             assert "MiB more memory on" in str(error)
             outcomes.append(False)
-        assert small.memory_statistics()["bytes_reserved"] <= kibibytes * 1024
-        if outcomes[-1]:
-            assert_works(small, expected)
-    assert outcomes[-1] and not outcomes[0] and outcomes == sorted(outcomes)
+        assert small.memory_statistics()["bytes_reserved"] <= half_mebibytes * MIB // 2
+        assert_works(small, expected)
+    assert not outcomes[0] and outcomes[-1]
 
 
 @pytest.mark.parametrize("call", ["vkAllocateMemory", "vkQueueSubmit2"])
 def test_a_refusal_that_passes_goes_unnoticed(device, expected, call):
     """What is kept for later frames is given back, and the work is done once more."""
-    for skip in range(30):
+    for skip in range(4 if call == "vkAllocateMemory" else 9):
         fresh = burnish.Device(name=device.name)
         burnish._core.inject_fault(fresh, call, OUT_OF_DEVICE_MEMORY, skip, 2)
         assert_works_after_two_refusals(fresh, expected)

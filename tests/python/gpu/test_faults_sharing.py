@@ -74,7 +74,7 @@ FORKED = """
             assert "expected one that this process opened, got one from before a fork" in str(error), error
         del device
         assert burnish.render(scene, size=(24, 32)).color.tobytes() == default
-        sys.exit(0)  # with all that an interpreter does at its end
+        os._exit(0)  # as multiprocessing ends a fork: Mesa's exit handler waits for the parent's threads
     assert os.waitpid(child, 0)[1] == 0, "the fork failed"
     assert burnish.render(scene, size=(24, 32)).color.tobytes() == default
     burnish.render(scene, size=(24, 32), device=device)
@@ -84,6 +84,51 @@ FORKED = """
 
 def test_a_fork_is_told_to_open_its_own_device_and_the_default_one_is_new(device):
     assert finish(start(FORKED, device.name)) == "done"
+
+
+FORKED_AMID_WORK = """
+    import os, signal, sys, threading
+    import burnish
+    from burnish import builtin
+
+    scene = builtin.make_scene("sphere")
+    scene.environment = builtin.make_environment("studio", 16)
+    device = burnish.Device(name=sys.argv[1])
+    has_begun = threading.Event()
+    is_done = []
+
+    def work(share, step):
+        has_begun.set()
+        assert not is_done
+
+    def draw():
+        try:
+            burnish.render(scene, size=(100, 100), spp=65536, device=device, progress=work)
+        except AssertionError:
+            pass
+
+    thread = threading.Thread(target=draw)
+    thread.start()
+    has_begun.wait()
+    child = os.fork()
+    if child == 0:
+        signal.alarm(100)
+        try:
+            burnish.render(scene, size=(24, 32), device=device)
+        except burnish.VulkanError as error:
+            os._exit(0 if "from before a fork" in str(error) else 1)
+        os._exit(2)
+    status = os.waitpid(child, 0)[1]
+    is_done.append(True)
+    thread.join()
+    assert status == 0, status
+    print("done")
+"""
+
+
+def test_a_fork_amid_the_work_of_another_thread_does_not_hang(device):
+    """The lock that the other thread holds is never let go in the fork."""
+    assert finish(start(FORKED_AMID_WORK, device.name)) == "done"
 
 
 def jobs(environment):
