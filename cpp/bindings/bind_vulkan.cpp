@@ -125,7 +125,8 @@ VulkanError
             "How maps are read: \"sampler\" or \"software\".")
         .def_property_readonly(
             "is_lost", [](const render::Renderer& self) { return self.device()->is_lost(); },
-            "True once the driver gave the device up; then all calls raise VulkanError, and a new Device is needed.")
+            "True once the driver gave the device up; then all calls raise VulkanError, and a new Device is "
+            "needed.")
         .def_property_readonly(
             "api_version",
             [](const render::Renderer& self) { return version_text(self.device()->info().api_version); },

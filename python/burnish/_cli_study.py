@@ -261,7 +261,9 @@ def run_study(options: argparse.Namespace) -> int:
         study = interruption.study
         if study.rows:
             _write(study, options)
-        again = "the same command takes up from here" if options.journal else "--journal FILE would let it go on"
+        again = (
+            "the same command takes up from here" if options.journal else "--journal FILE would let it go on"
+        )
         print(f"burnish study: interrupted after {len(study.rows)} rows; {again}", file=sys.stderr)
         return 130
     return 0

@@ -1,5 +1,5 @@
-// What goes wrong below: too little memory, a lost device, a shader the driver cannot compile, a fork. Each gives one
-// clear error, and what can still work does.
+// What goes wrong below: too little memory, a lost device, a shader the driver cannot compile, a fork. Each
+// gives one clear error, and what can still work does.
 #include "vulkan_support.h"
 
 #include "burnish/vulkan/memory.h"

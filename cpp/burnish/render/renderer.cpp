@@ -71,9 +71,9 @@ GpuScene& Renderer::prepare_scene(const Scene& scene) {
     if (!scene_ || wanted != scene_fingerprint_) {
         validate(scene);
         scene_.reset(); // its memory may be needed for the next
-        scene_ = needing_memory_for(message("a scene of ", scene.meshes.size(), " meshes and ",
-                                            scene.images.size(), " textures"),
-                                    [&] { return std::make_unique<GpuScene>(device_, scene); });
+        scene_ = needing_memory_for(
+            message("a scene of ", scene.meshes.size(), " meshes and ", scene.images.size(), " textures"),
+            [&] { return std::make_unique<GpuScene>(device_, scene); });
         scene_fingerprint_ = wanted;
     }
     // Objects and materials may change without the meshes: their indices are checked each time.

@@ -86,8 +86,8 @@ private:
     std::unique_lock<std::mutex> enter();
     /// Gives back what is only kept for later frames.
     void forget();
-    /// Runs `work` with the memory that there is: where it does not suffice, once more without what is kept for later
-    /// frames. The error says what it was for.
+    /// Runs `work` with the memory that there is: where it does not suffice, once more without what is kept
+    /// for later frames. The error says what it was for.
     template <typename Work>
     auto within_memory(const std::string& what, const Work& work) {
         try {
@@ -105,7 +105,8 @@ private:
     Frame draw(const Scene& scene, const Camera& camera, const RenderSettings& settings);
     std::vector<glm::vec3> shade_points(const std::shared_ptr<const Environment>& environment,
                                         const Material& material, const ShadePoints& points,
-                                        const PlanSettings& settings, Report* report, const Progress& progress);
+                                        const PlanSettings& settings, Report* report,
+                                        const Progress& progress);
     std::vector<std::shared_ptr<EnvironmentMaps>> prepare_maps(const Plan& plan,
                                                                std::vector<vulkan::PassTime>& times);
     Prefilter& prefilter();

@@ -178,11 +178,11 @@ void Commands::read_timestamps() {
     for (std::size_t i = 0; i < passes_.size(); ++i) {
         const std::size_t query = 2 * i; // a pool holds an even number, so both ends are in one
         uint64_t ticks[2] = {};
-        device_->check(vkGetQueryPoolResults(device_->handle(),
-                                             frame_.queries[query / CommandFrames::queries_per_pool],
-                                             static_cast<uint32_t>(query % CommandFrames::queries_per_pool), 2,
-                                             sizeof(ticks), ticks, sizeof(uint64_t), VK_QUERY_RESULT_64_BIT),
-                       "vkGetQueryPoolResults");
+        device_->check(
+            vkGetQueryPoolResults(device_->handle(), frame_.queries[query / CommandFrames::queries_per_pool],
+                                  static_cast<uint32_t>(query % CommandFrames::queries_per_pool), 2,
+                                  sizeof(ticks), ticks, sizeof(uint64_t), VK_QUERY_RESULT_64_BIT),
+            "vkGetQueryPoolResults");
         const uint64_t elapsed = (ticks[1] - ticks[0]) & mask; // right also across a wrap
         passes_[i].milliseconds = static_cast<double>(elapsed) * features.timestamp_period_ns * 1e-6;
     }

@@ -228,10 +228,12 @@ bool Device::is_forked() const {
 
 void Device::require_usable() const {
     if (is_forked()) {
-        throw VulkanError("device: expected one that this process opened, got one from before a fork; make a new "
-                          "burnish.Device, or start processes by \"spawn\"");
+        throw VulkanError(
+            "device: expected one that this process opened, got one from before a fork; make a new "
+            "burnish.Device, or start processes by \"spawn\"");
     }
-    if (is_lost_) throw VulkanError("device: expected a working one, got a lost one; make a new burnish.Device");
+    if (is_lost_)
+        throw VulkanError("device: expected a working one, got a lost one; make a new burnish.Device");
 }
 
 void Device::check(VkResult result, const char* what, std::source_location place) const {

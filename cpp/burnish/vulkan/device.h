@@ -103,15 +103,15 @@ public:
 
     /// True once a call returned VK_ERROR_DEVICE_LOST: nothing made from this device works any more.
     bool is_lost() const { return is_lost_; }
-    /// Throws VulkanError if the device is lost, or this process is a fork of the one that opened it: the driver's
-    /// threads stayed behind, and waiting for them would take for ever.
+    /// Throws VulkanError if the device is lost, or this process is a fork of the one that opened it: the
+    /// driver's threads stayed behind, and waiting for them would take for ever.
     void require_usable() const;
     /// vk_check for what may say that the device is lost.
     void check(VkResult result, const char* what,
                std::source_location place = std::source_location::current()) const;
 
-    /// For tests of what no driver can be made to do: after `skip` further calls of the Vulkan function `call`,
-    /// the next `times` return `result` and do nothing.
+    /// For tests of what no driver can be made to do: after `skip` further calls of the Vulkan function
+    /// `call`, the next `times` return `result` and do nothing.
     void inject_fault(std::string call, VkResult result, uint32_t skip = 0, uint32_t times = 1) const;
     /// VK_SUCCESS, or what a test wants the function to return instead of being called.
     VkResult take_fault(const char* call) const;

@@ -166,7 +166,8 @@ ComputePipeline::ComputePipeline(const DevicePointer& device, const Shader& shad
     const Clock::time_point begin = Clock::now();
     VkResult result = device->take_fault("vkCreateComputePipelines");
     if (result == VK_SUCCESS) {
-        result = vkCreateComputePipelines(device->handle(), device->pipeline_cache(), 1, &info, nullptr, &pipeline);
+        result = vkCreateComputePipelines(device->handle(), device->pipeline_cache(), 1, &info, nullptr,
+                                          &pipeline);
     }
     require_compiled(result, *interface_, "vkCreateComputePipelines");
     compile_ms_ = milliseconds_since(begin);
@@ -250,7 +251,8 @@ GraphicsPipeline::GraphicsPipeline(const DevicePointer& device, const Shader& ve
     const Clock::time_point begin = Clock::now();
     VkResult result = device->take_fault("vkCreateGraphicsPipelines");
     if (result == VK_SUCCESS) {
-        result = vkCreateGraphicsPipelines(device->handle(), device->pipeline_cache(), 1, &info, nullptr, &pipeline);
+        result = vkCreateGraphicsPipelines(device->handle(), device->pipeline_cache(), 1, &info, nullptr,
+                                           &pipeline);
     }
     require_compiled(result, *interface_, "vkCreateGraphicsPipelines");
     compile_ms_ = milliseconds_since(begin);

@@ -53,7 +53,8 @@ const char* result_name(VkResult result) {
 
 void vk_check(VkResult result, const char* what, std::source_location place) {
     if (result == VK_SUCCESS) return;
-    const char* advice = result == VK_ERROR_DEVICE_LOST ? "; the device is lost, make a new burnish.Device" : "";
+    const char* advice =
+        result == VK_ERROR_DEVICE_LOST ? "; the device is lost, make a new burnish.Device" : "";
     const std::string text =
         message(what, ": expected VK_SUCCESS, got ", result_name(result), " (", static_cast<int>(result), ")",
                 advice, " [", place.file_name(), ":", place.line(), "]");

@@ -13,8 +13,8 @@ const char* result_name(VkResult result);
 
 bool is_out_of_memory(VkResult result);
 
-/// Throws VulkanError, for lack of memory OutOfMemoryError, unless `result` is VK_SUCCESS. `what` is the Vulkan
-/// function that returned it.
+/// Throws VulkanError, for lack of memory OutOfMemoryError, unless `result` is VK_SUCCESS. `what` is the
+/// Vulkan function that returned it.
 void vk_check(VkResult result, const char* what,
               std::source_location place = std::source_location::current());
 

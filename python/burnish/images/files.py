@@ -42,8 +42,8 @@ def replacing(path: str | os.PathLike[str]) -> Iterator[str]:
     """Give the name of a temporary file beside `path` that becomes `path` when the block succeeds.
 
     Whatever happens in between, `path` is the old file or the whole new one. A process that is killed leaves
-    the temporary file, ``.NAME-*.part`` and the ending of the name, and nothing else. What is no plain file, such
-    as a pipe, is written to as it is.
+    the temporary file, ``.NAME-*.part`` and the ending of the name, and nothing else. What is no plain file,
+    such as a pipe, is written to as it is.
 
     Parameters
     ----------

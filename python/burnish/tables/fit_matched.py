@@ -13,9 +13,9 @@ import numpy as np
 from numpy.typing import NDArray
 from tqdm import tqdm
 
+from burnish.images.files import write_text
 from burnish.oracle.matched_table import COUNTS, TABLE_PATH, mixture_at
 from burnish.oracle.spherical_pyramid import PREFILTER_SAMPLES
-from burnish.images.files import write_text
 from burnish.tables.fit_objective import Mixtures, copies, fit, quantiser
 from burnish.tables.fit_selection import Training, make_training, score
 

@@ -1,4 +1,4 @@
-"""A device that is lost and shaders that do not compile: said clearly, and the engine can be used after it."""
+"""A device that is lost and shaders that do not compile: said clearly, and the engine works after it."""
 
 import numpy as np
 import pytest
@@ -37,14 +37,14 @@ def test_a_lost_device_says_so_and_a_new_one_works(device, scene, expected):
     assert lost.is_lost
     again = r"device: expected a working one, got a lost one; make a new burnish\.Device"
     calls = [
-        lambda: render(scene, lost),
-        lambda: scene.environment.pyramid(device=lost),
-        lambda: scene.capture(point=(0, 2, 0), face_size=8, device=lost),
-        lambda: before.depth,
+        lambda lost: render(scene, lost),
+        lambda lost: scene.environment.pyramid(device=lost),
+        lambda lost: scene.capture(point=(0, 2, 0), face_size=8, device=lost),
+        lambda lost: before.depth,
     ]
     for call in 2 * calls:
         with pytest.raises(burnish.VulkanError, match=again):
-            call()
+            call(lost)
     np.testing.assert_array_equal(before.color, expected)  # what was drawn before is still there
     del lost
     np.testing.assert_array_equal(render(scene, burnish.Device(name=device.name)), expected)
@@ -85,9 +85,8 @@ def test_a_shader_that_does_not_compile_is_named(device, scene, expected, call):
             break
         except burnish.VulkanError as error:
             what, rest = str(error).split(": ", 1)
-            assert rest == (
-                f"expected the driver to compile it, {call} returned VK_ERROR_INVALID_SHADER_NV ({INVALID_SHADER})"
-            )
+            returned = f"returned VK_ERROR_INVALID_SHADER_NV ({INVALID_SHADER})"
+            assert rest == f"expected the driver to compile it, {call} {returned}"
             named.add(what)
         np.testing.assert_array_equal(render(scene, fresh), expected)
     if call == "vkCreateGraphicsPipelines":

@@ -1,4 +1,4 @@
-"""Ctrl-C ends long work soon, without a traceback on the command line, and the engine can be used after it."""
+"""Ctrl-C ends long work soon, without a traceback on the command line, and the engine works after it."""
 
 import os
 import signal
@@ -58,7 +58,10 @@ def test_ctrl_c_on_the_command_line_writes_nothing_and_exits_with_130(tmp_path):
     path.write_bytes(b"old")
     arguments = ["render", "sphere", "--size", "100x100", "--spp", "65536", "-o", str(path)]
     process = subprocess.Popen(
-        [sys.executable, "-m", "burnish", *arguments], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
+        [sys.executable, "-m", "burnish", *arguments],
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
     )
     wait_until_busy(process, 3.0)
     process.send_signal(signal.SIGINT)

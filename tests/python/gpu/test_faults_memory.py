@@ -43,7 +43,9 @@ def refusal(what, amount, limit):
 def test_a_frame_too_large_says_how_much_it_lacked(device, expected):
     small = limited(device, 48)
     for _ in range(2):
-        with pytest.raises(burnish.VulkanError, match=refusal("a frame of 2000 x 2000 pixels", r"[\d.]+", 48)):
+        with pytest.raises(
+            burnish.VulkanError, match=refusal("a frame of 2000 x 2000 pixels", r"[\d.]+", 48)
+        ):
             burnish.render(make_scene(), size=(2000, 2000), device=small)
         assert_works(small, expected)
 
@@ -75,7 +77,9 @@ def test_a_mesh_too_large_says_so(device, expected):
     positions = np.hstack([grid, np.zeros((len(grid), 1), np.float32)])
     corners = np.arange(len(grid) - 501, dtype=np.uint32)
     scene = burnish.Scene()
-    scene.add(burnish.Mesh(positions, np.stack([corners, corners + 1, corners + 500], -1)), burnish.Material())
+    scene.add(
+        burnish.Mesh(positions, np.stack([corners, corners + 1, corners + 500], -1)), burnish.Material()
+    )
     what = "a frame of 24 x 32 pixels: a scene of 1 meshes and 0 textures"
     with pytest.raises(burnish.VulkanError, match=refusal(what, r"[\d.]+", 8)):
         burnish.render(scene, size=SIZE, device=small)
@@ -141,5 +145,7 @@ def assert_works_after_two_refusals(fresh, expected):
 
 @pytest.mark.parametrize("limit", [0, -1, MIB - 1])
 def test_limits_that_make_no_sense_are_refused(limit):
-    with pytest.raises(ValueError, match=f"memory_limit_bytes: expected None or at least 1048576, got {limit}"):
+    with pytest.raises(
+        ValueError, match=f"memory_limit_bytes: expected None or at least 1048576, got {limit}"
+    ):
         burnish.Device(memory_limit_bytes=limit)

@@ -27,7 +27,8 @@ FRAMES = """
         scene = burnish.Scene.sphere(burnish.Material(lobes=[burnish.KurtLobe(roughness=0.1 + 0.05 * seed)]))
         scene.environment = spots(seed=seed, face_size=32)
         for sampler in (burnish.Regular(), burnish.Matched(), burnish.Reference(0.2)):
-            digest.update(burnish.render(scene, size=(24, 32), sampler=sampler, device=device).color.tobytes())
+            frame = burnish.render(scene, size=(24, 32), sampler=sampler, device=device)
+            digest.update(frame.color.tobytes())
     print(digest.hexdigest())
 """
 
@@ -142,9 +143,9 @@ def jobs(environment):
     lobe = burnish.Material(lobes=[burnish.KurtLobe(roughness=0.3)])
     return {
         "render": lambda device: burnish.render(scene, size=SIZE, spp=2, device=device).color,
-        "reference": lambda device: burnish.render(
-            scene, size=SIZE, sampler=burnish.Reference(0.2), device=device
-        ).color,
+        "reference": lambda device: (
+            burnish.render(scene, size=SIZE, sampler=burnish.Reference(0.2), device=device).color
+        ),
         "shade": lambda device: burnish.shade(environment, lobe, burnish.Matched(), *points, device=device),
         "pyramid": lambda device: environment.pyramid(device=device)[2],
         "capture": lambda device: scene.capture(point=(0, 2, 0), face_size=8, device=device).faces,

@@ -1,4 +1,4 @@
-"""A full disk, and a process that is killed while it saves: the old file or the whole new one, nothing between."""
+"""A full disk, and a process that is killed while it saves: the old file or the whole new one."""
 
 import json
 import os
@@ -13,7 +13,6 @@ from contextlib import contextmanager
 
 import numpy as np
 import pytest
-from study_support import FakeSubject, grey_picture, make_cell
 
 import burnish
 from burnish.frame import Frame
@@ -22,6 +21,7 @@ from burnish.report import Report
 from burnish.study.journal import Journal
 from burnish.study.runner import run_cells
 from burnish.study.store import PictureStore
+from study_support import FakeSubject, grey_picture, make_cell
 
 
 @pytest.fixture(scope="module")
@@ -93,7 +93,9 @@ def test_the_words_of_the_system_are_passed_on(frame, study, warm, tmp_path, nam
     """The device that is always full stands in for a disk, behind a name with the right ending."""
     path = tmp_path / name
     path.symlink_to("/dev/full")
-    with pytest.raises(burnish.FileError, match=rf"{name}: cannot be written: .*(No space left on device|28)"):
+    with pytest.raises(
+        burnish.FileError, match=rf"{name}: cannot be written: .*(No space left on device|28)"
+    ):
         SAVERS[name](frame, study, path)
     assert stat.S_ISCHR(os.stat("/dev/full").st_mode) and path.is_symlink()
 
@@ -188,7 +190,10 @@ def test_a_study_on_a_full_disk_goes_on_when_there_is_room(tmp_path):
     path = tmp_path / "rows.jsonl"
     cells = [make_cell(FakeSubject("one")), make_cell(FakeSubject("two"))]
     run_cells(cells[:1], Journal(path), PictureStore(), False, False)
-    with file_size_limit(path.stat().st_size + 50), pytest.raises(burnish.FileError, match="cannot be written"):
+    with (
+        file_size_limit(path.stat().st_size + 50),
+        pytest.raises(burnish.FileError, match="cannot be written"),
+    ):
         run_cells(cells, Journal(path), PictureStore(), False, False)
     assert len(path.read_text().splitlines()) == 3
     study = run_cells(cells, Journal(path), PictureStore(), False, False)
