@@ -81,6 +81,15 @@ def test_everything_asked_for_is_written(fake_sweep, tmp_path, capsys):
     assert capsys.readouterr().out == ""
 
 
+def test_one_file_that_cannot_be_written_costs_no_other(fake_sweep, tmp_path, capsys):
+    rows, table = tmp_path / "rows.json", tmp_path / "rows.csv"
+    rows.symlink_to("/dev/full")
+    assert cli.main(["study", "sphere", "--json", str(rows), "--csv", str(table)]) == 2
+    out, err = capsys.readouterr()
+    assert "regular:10" in out and f"wrote {table}" in out and table.stat().st_size > 0
+    assert err == f"burnish study: error: {rows}: cannot be written: No space left on device\n"
+
+
 def test_an_interruption_writes_what_there_is(monkeypatch, tmp_path, capsys):
     def sweep(*arguments, **named):
         study = run_cells([make_cell(FakeSubject())], Journal(), PictureStore(), True, False)
