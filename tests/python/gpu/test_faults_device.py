@@ -73,6 +73,7 @@ def test_a_lost_default_device_is_replaced(device, scene, expected, monkeypatch)
     assert _device.default_device() is not lost
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("call", ["vkCreateComputePipelines", "vkCreateGraphicsPipelines"])
 def test_a_shader_that_does_not_compile_is_named(device, scene, expected, call):
     """Every pipeline of a frame in turn."""

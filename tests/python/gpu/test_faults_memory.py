@@ -107,6 +107,7 @@ def test_maps_of_earlier_frames_make_room(device):
     assert small.memory_statistics()["bytes_reserved"] <= 16 * MIB
 
 
+@pytest.mark.slow
 def test_every_limit_gives_the_right_picture_or_an_error(device, expected):
     scene, size = make_scene(spots(face_size=64)), (200, 300)
     wanted = burnish.render(scene, size=size, device=device).color.copy()
@@ -125,6 +126,7 @@ def test_every_limit_gives_the_right_picture_or_an_error(device, expected):
     assert not outcomes[0] and outcomes[-1]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("call", ["vkAllocateMemory", "vkQueueSubmit2"])
 def test_a_refusal_that_passes_goes_unnoticed(device, expected, call):
     """What is kept for later frames is given back, and the work is done once more."""
