@@ -5,6 +5,7 @@
 
 #include "burnish/render/probe.h"
 #include "burnish/render/renderer.h"
+#include "burnish/vulkan/device.h"
 #include "numpy.h"
 #include "shared/probe.h"
 
@@ -27,6 +28,26 @@ py::array_t<float> probe(const render::Renderer& renderer, const std::string& li
 } // namespace
 
 void bind_probe(py::module_& m) {
+    m.def(
+        "inject_fault",
+        [](const render::Renderer& renderer, const std::string& call, int result, uint32_t skip,
+           uint32_t times) {
+            renderer.device()->inject_fault(call, static_cast<VkResult>(result), skip, times);
+        },
+        py::arg("device"), py::arg("call"), py::arg("result"), py::arg("skip") = 0, py::arg("times") = 1,
+        R"(Let a Vulkan call fail; for tests of what no driver can be made to do. Takes the place of an earlier one.
+
+Parameters
+----------
+device : Device
+call : str
+    "vkQueueSubmit2", "vkAllocateMemory", "vkCreateComputePipelines" or "vkCreateGraphicsPipelines".
+result : int
+    The VkResult that it returns, without being made.
+skip : int
+    Calls that go well before.
+times : int
+    Calls that fail then.)");
     m.def("probe", &probe, py::arg("device"), py::arg("library"), py::arg("function"), py::arg("arguments"),
           R"(Run one function of the shader library over a list of items; for tests.
 

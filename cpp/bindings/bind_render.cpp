@@ -16,6 +16,15 @@ namespace {
 
 using ProgressFunction = std::function<void(double, const std::string&)>;
 
+/// Tells Python how far the work is, and lets Ctrl-C end it. Called without the interpreter's lock.
+render::Progress interruptible(const std::optional<ProgressFunction>& progress) {
+    return [&progress](double fraction, const std::string& text) {
+        const py::gil_scoped_acquire acquire;
+        if (progress) (*progress)(fraction, text);
+        if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+    };
+}
+
 PlanSettings plan_settings(const Sampler& sampler, int64_t spp, const std::string& filter) {
     if (spp < 1 || spp > 65536) throw std::invalid_argument(message("spp: expected 1..65536, got ", spp));
     PlanSettings settings;
@@ -163,7 +172,7 @@ py::array_t<float> shade_points(render::Renderer& renderer, const std::shared_pt
     render::Report report;
     {
         const py::gil_scoped_release release;
-        radiance = renderer.shade(environment, material, points, settings, &report);
+        radiance = renderer.shade(environment, material, points, settings, &report, interruptible({}));
     }
     if (is_strict) raise_if_stopped(report);
     warn(report);
@@ -180,12 +189,7 @@ std::shared_ptr<render::Frame> render_scene(render::Renderer& renderer, const Sc
     settings.width = width;
     settings.height = height;
     settings.plan = plan_settings(sampler, spp, filter);
-    if (progress)
-        settings.progress = [&](double fraction, const std::string& text) {
-            const py::gil_scoped_acquire acquire;
-            (*progress)(fraction, text);
-            if (PyErr_CheckSignals() != 0) throw py::error_already_set();
-        };
+    settings.progress = interruptible(progress);
     FramePointer frame;
     {
         const py::gil_scoped_release release;

@@ -12,6 +12,8 @@ namespace py = pybind11;
 namespace burnish {
 namespace {
 
+constexpr int64_t least_memory_bytes = int64_t{1} << 20; // what it keeps for itself fits into that
+
 std::string version_text(uint32_t version) {
     return std::to_string(VK_API_VERSION_MAJOR(version)) + "." +
            std::to_string(VK_API_VERSION_MINOR(version)) + "." +
@@ -46,10 +48,15 @@ py::dict features_of(const vulkan::Device& device) {
 }
 
 std::shared_ptr<render::Renderer> open_device(const std::string& name, std::optional<bool> validation,
-                                              const std::string& lookup) {
+                                              const std::string& lookup,
+                                              std::optional<int64_t> memory_limit_bytes) {
     const py::gil_scoped_release release;
     vulkan::DeviceSettings settings;
     settings.name = name;
+    if (memory_limit_bytes && *memory_limit_bytes < least_memory_bytes)
+        throw std::invalid_argument(message("memory_limit_bytes: expected None or at least ",
+                                            least_memory_bytes, ", got ", *memory_limit_bytes));
+    if (memory_limit_bytes) settings.memory_limit_bytes = static_cast<VkDeviceSize>(*memory_limit_bytes);
     if (validation) settings.validation = *validation;
     std::optional<MapLookup> asked = map_lookup(lookup);
     const char* from_environment = std::getenv("BURNISH_LOOKUP");
@@ -79,7 +86,9 @@ void bind_vulkan(py::module_& m) {
 
     py::class_<render::Renderer, std::shared_ptr<render::Renderer>>(m, "Device", R"(A Vulkan device, opened.
 
-It keeps pipelines, scenes and maps from frame to frame. Several threads may use it; they wait for each other.
+It keeps pipelines, scenes and maps from frame to frame. Several threads may use it: their calls take turns, and
+each gets what it would alone; a scene must not be changed while another thread draws it. Several processes may open
+devices on one GPU or CPU. A process that was forked must open its own.
 
 Parameters
 ----------
@@ -92,13 +101,16 @@ validation : bool or None
 lookup : str
     How maps are read: "sampler", by the device's own; "software", by ours, which a CPU does in half the time. "auto": the
     environment variable BURNISH_LOOKUP, else "software" on a CPU.
+memory_limit_bytes : int or None
+    Most memory that it takes from the driver, 2**20 or more; what needs more is refused. None: as much as the driver
+    gives, which on a CPU may be more than the machine has to spare.
 
 Raises
 ------
 VulkanError
     If no device fits; the message lists every device with the reason.)")
         .def(py::init(&open_device), py::arg("name") = "", py::arg("validation") = py::none(),
-             py::arg("lookup") = "auto")
+             py::arg("lookup") = "auto", py::arg("memory_limit_bytes") = py::none())
         .def_property_readonly(
             "name", [](const render::Renderer& self) { return self.device()->info().name; },
             "As the driver gives it.")
@@ -111,6 +123,10 @@ VulkanError
         .def_property_readonly(
             "lookup", [](const render::Renderer& self) { return map_lookup_name(self.lookup().wanted); },
             "How maps are read: \"sampler\" or \"software\".")
+        .def_property_readonly(
+            "is_lost", [](const render::Renderer& self) { return self.device()->is_lost(); },
+            "True once the driver gave the device up; then all calls raise VulkanError, and a new Device is "
+            "needed.")
         .def_property_readonly(
             "api_version",
             [](const render::Renderer& self) { return version_text(self.device()->info().api_version); },

@@ -31,4 +31,20 @@ public:
     using std::runtime_error::runtime_error;
 };
 
+/// Memory that the device does not have, or not in one piece.
+class OutOfMemoryError : public VulkanError {
+public:
+    using VulkanError::VulkanError;
+};
+
+/// Runs `work`; if memory is lacking the error also says what it was for.
+template <typename Work>
+auto needing_memory_for(const std::string& what, const Work& work) {
+    try {
+        return work();
+    } catch (const OutOfMemoryError& error) {
+        throw OutOfMemoryError(what + ": " + error.what());
+    }
+}
+
 } // namespace burnish

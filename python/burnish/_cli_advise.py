@@ -80,6 +80,7 @@ def run_advise(options: argparse.Namespace) -> int:
     from burnish.advice import advise
     from burnish.advice.cost_model import CostModel
     from burnish.cli import find_camera, prepare_scene
+    from burnish.images.files import write_text
 
     if options.report and not Path(options.report).parent.is_dir():
         raise ValueError(f"{options.report}: expected an existing folder, got {Path(options.report).parent}")
@@ -102,6 +103,6 @@ def run_advise(options: argparse.Namespace) -> int:
         )
     print(advice)
     if options.report:
-        Path(options.report).write_text(json.dumps(advice.to_dict(), indent=2) + "\n", encoding="utf-8")
+        write_text(options.report, json.dumps(advice.to_dict(), indent=2) + "\n")
         print(f"wrote {options.report}")
     return 0 if advice.meets_target else 1

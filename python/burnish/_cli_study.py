@@ -224,22 +224,29 @@ def _measure(options: argparse.Namespace) -> "Study":
 
 
 def _write(study: "Study", options: argparse.Namespace) -> None:
+    from burnish import FileError
     from burnish.study.findings import list_findings
 
-    if options.json:
-        study.save_json(options.json)
-    if options.csv:
-        study.save_csv(options.csv)
-    if options.plot:
-        study.plot(options.plot)
-    if options.output:
-        study.save_html(options.output)
-    if options.quiet:
-        return
-    print(study.format_table())
-    print("", *list_findings(study), "", sep="\n")
-    for name in _outputs(options):
-        print(f"wrote {name}")
+    if not options.quiet:
+        print(study.format_table())
+        print("", *list_findings(study), "", sep="\n")
+    failures = []
+    for name, save in (
+        (options.json, study.save_json),
+        (options.csv, study.save_csv),
+        (options.plot, study.plot),
+        (options.output, study.save_html),
+    ):
+        try:
+            if name:
+                save(name)
+        except FileError as error:
+            failures.append(str(error))  # what was measured for long is written wherever it can be
+        else:
+            if name and not options.quiet:
+                print(f"wrote {name}")
+    if failures:
+        raise FileError("; ".join(failures))
 
 
 def run_study(options: argparse.Namespace) -> int:
@@ -261,7 +268,9 @@ def run_study(options: argparse.Namespace) -> int:
         study = interruption.study
         if study.rows:
             _write(study, options)
-        again = "; the same command takes up from here" if options.journal else ""
-        print(f"burnish study: interrupted after {len(study.rows)} rows{again}", file=sys.stderr)
+        again = (
+            "the same command takes up from here" if options.journal else "--journal FILE would let it go on"
+        )
+        print(f"burnish study: interrupted after {len(study.rows)} rows; {again}", file=sys.stderr)
         return 130
     return 0

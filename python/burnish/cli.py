@@ -210,6 +210,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         code: int = COMMANDS[options.command](options)
         return code
     except KeyboardInterrupt:
+        print(f"burnish {options.command}: interrupted", file=sys.stderr)
         return 130
     except BrokenPipeError:
         # The reader, such as head, has seen enough. What is still buffered must not raise again at exit.

@@ -4,7 +4,6 @@ import json
 import os
 from collections.abc import Mapping
 from copy import deepcopy
-from pathlib import Path
 from typing import Any
 
 Row = tuple[str, str, str]
@@ -147,8 +146,15 @@ class Report:
         ----------
         path : path
             Its folder must exist.
+
+        Raises
+        ------
+        FileError
+            If it cannot be written; a file of that name is then as it was.
         """
-        Path(path).write_text(self.to_json() + "\n", encoding="utf-8")
+        from burnish.images.files import write_text
+
+        write_text(path, self.to_json() + "\n")
 
     def __repr__(self) -> str:
         height, width = self.size

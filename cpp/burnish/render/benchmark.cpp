@@ -10,7 +10,7 @@ namespace burnish::render {
 
 std::vector<double> Renderer::time_lookups(const std::shared_ptr<const Environment>& environment,
                                            const Regular& sampler, float roughness, uint32_t repeats) {
-    const std::lock_guard lock(mutex_);
+    const auto lock = enter();
     constexpr uint32_t width = 1920, height = 1080;
     const SampleTable table = build_sample_table(sampler, glm::vec2(roughness), environment->face_size());
     EnvironmentMaps maps(device_, pyramid_, std::span(&environment, 1), PyramidFilter::gauss6);
@@ -45,7 +45,7 @@ std::vector<double> Renderer::time_lookups(const std::shared_ptr<const Environme
 }
 
 double Renderer::time_blits(const std::shared_ptr<const Environment>& environment) {
-    const std::lock_guard lock(mutex_);
+    const auto lock = enter();
     vulkan::ImageSettings settings;
     settings.format = VK_FORMAT_R16G16B16A16_SFLOAT;
     settings.width = settings.height = environment->face_size();

@@ -18,10 +18,12 @@ std::span<const glm::vec4> Frame::radiance() const {
 
 void Frame::read_surface() {
     if (!surface_.empty()) return;
-    raw_depth_.resize(size_t(width) * height);
-    surface_.resize(raw_depth_.size());
-    vulkan::read_back(targets->depth, {}, std::as_writable_bytes(std::span(raw_depth_)));
-    vulkan::read_back(targets->surface, {}, std::as_writable_bytes(std::span(surface_)));
+    std::vector<float> depth(size_t(width) * height);
+    std::vector<glm::uvec2> surface(depth.size());
+    vulkan::read_back(targets->depth, {}, std::as_writable_bytes(std::span(depth)));
+    vulkan::read_back(targets->surface, {}, std::as_writable_bytes(std::span(surface)));
+    raw_depth_ = std::move(depth); // only now: after an error it can be asked for again
+    surface_ = std::move(surface);
 }
 
 std::vector<float> Frame::depth() {

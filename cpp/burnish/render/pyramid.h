@@ -45,6 +45,8 @@ public:
     /// level 0, half RGBA of six faces for each cube, into the buffer and from there into the image, so that
     /// `record` need not copy it back. Submits and waits. False where that cannot be: upload the image then.
     bool stage(vulkan::Image& cubes, std::span<const std::vector<uint16_t>> texels, PyramidFilter filter);
+    /// Gives back the room that is kept for the next maps.
+    void free_scratches() { scratches_.clear(); }
 
 private:
     /// Invocations of a workgroup of the reduction.

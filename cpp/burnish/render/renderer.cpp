@@ -55,6 +55,22 @@ Renderer::Renderer(std::shared_ptr<vulkan::Device> device, std::optional<MapLook
       pipelines_(device_), pyramid_(device_), placeholders_(device_),
       targets_(std::make_shared<TargetPool>(device_)) {}
 
+std::unique_lock<std::mutex> Renderer::enter() {
+    device_->require_usable(); // before the mutex, which a fork may have left locked
+    return std::unique_lock(mutex_);
+}
+
+void Renderer::forget() {
+    scene_.reset();
+    maps_.clear();
+    alias_environments_.clear();
+    alias_ = {};
+    pyramid_.free_scratches();
+    prefilter_.reset();
+    texel_pairs_.reset();
+    targets_->clear();
+}
+
 Plan Renderer::make_plan(const Scene& scene, const PlanSettings& settings) {
     PlanSettings with_lookup = settings;
     with_lookup.lookup = lookup_;
@@ -66,7 +82,9 @@ GpuScene& Renderer::prepare_scene(const Scene& scene) {
     if (!scene_ || wanted != scene_fingerprint_) {
         validate(scene);
         scene_.reset(); // its memory may be needed for the next
-        scene_ = std::make_unique<GpuScene>(device_, scene);
+        scene_ = needing_memory_for(
+            message("a scene of ", scene.meshes.size(), " meshes and ", scene.images.size(), " textures"),
+            [&] { return std::make_unique<GpuScene>(device_, scene); });
         scene_fingerprint_ = wanted;
     }
     // Objects and materials may change without the meshes: their indices are checked each time.
@@ -110,7 +128,12 @@ Report Renderer::start_report(const Scene& scene, const Plan& plan, const ShadeT
 }
 
 Frame Renderer::render(const Scene& scene, const Camera& camera, const RenderSettings& settings) {
-    const std::lock_guard lock(mutex_);
+    const auto lock = enter();
+    return within_memory(message("a frame of ", settings.height, " x ", settings.width, " pixels"),
+                         [&] { return draw(scene, camera, settings); });
+}
+
+Frame Renderer::draw(const Scene& scene, const Camera& camera, const RenderSettings& settings) {
     const Stopwatch wall;
     if (settings.width < 1 || settings.height < 1 || settings.width > 16384 || settings.height > 16384)
         throw std::invalid_argument(
@@ -206,8 +229,18 @@ Frame Renderer::render(const Scene& scene, const Camera& camera, const RenderSet
 
 std::vector<glm::vec3> Renderer::shade(const std::shared_ptr<const Environment>& environment,
                                        const Material& material, const ShadePoints& points,
-                                       const PlanSettings& settings, Report* report) {
-    const std::lock_guard lock(mutex_);
+                                       const PlanSettings& settings, Report* report,
+                                       const Progress& progress) {
+    const auto lock = enter();
+    return within_memory(message(points.normals.size(), " points to shade"), [&] {
+        return shade_points(environment, material, points, settings, report, progress);
+    });
+}
+
+std::vector<glm::vec3> Renderer::shade_points(const std::shared_ptr<const Environment>& environment,
+                                              const Material& material, const ShadePoints& points,
+                                              const PlanSettings& settings, Report* report,
+                                              const Progress& progress) {
     const Stopwatch wall;
     const size_t count = points.normals.size();
     if (points.tangents.size() != count || points.views.size() != count)
@@ -248,7 +281,7 @@ std::vector<glm::vec3> Renderer::shade(const std::shared_ptr<const Environment>&
     Report local = start_report(scene, plan, tables);
     local.compile_ms = pipelines_.take_compile_ms();
     if (reference) {
-        run_reference(plan, shade, *reference, count, {}, local);
+        run_reference(plan, shade, *reference, count, progress, local);
     } else {
         vulkan::Commands commands(device_);
         shade.record_shade(commands, {});

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "burnish/error.h"
 #include "burnish/render/environment_maps.h"
 #include "burnish/render/frame.h"
 #include "burnish/render/gpu_scene.h"
@@ -54,7 +55,8 @@ public:
     /// Linear radiance at each point; `report` gets what it cost.
     std::vector<glm::vec3> shade(const std::shared_ptr<const Environment>& environment,
                                  const Material& material, const ShadePoints& points,
-                                 const PlanSettings& settings, Report* report = nullptr);
+                                 const PlanSettings& settings, Report* report = nullptr,
+                                 const Progress& progress = {});
 
     /// All levels of the map as the lookups see them: 6 n n 3 floats each.
     std::vector<std::vector<float>> pyramid(const std::shared_ptr<const Environment>& environment,
@@ -83,6 +85,31 @@ private:
         std::shared_ptr<EnvironmentMaps> maps;
     };
 
+    /// Waits for other threads. Throws VulkanError if the device cannot be used any more.
+    std::unique_lock<std::mutex> enter();
+    /// Gives back what is only kept for later frames.
+    void forget();
+    /// Runs `work` with the memory that there is: where it does not suffice, once more without what is kept
+    /// for later frames. The error says what it was for.
+    template <typename Work>
+    auto within_memory(const std::string& what, const Work& work) {
+        try {
+            return work();
+        } catch (const OutOfMemoryError&) {
+            forget();
+        }
+        try {
+            return needing_memory_for(what, work);
+        } catch (const OutOfMemoryError&) {
+            forget(); // what half of the work left behind
+            throw;
+        }
+    }
+    Frame draw(const Scene& scene, const Camera& camera, const RenderSettings& settings);
+    std::vector<glm::vec3> shade_points(const std::shared_ptr<const Environment>& environment,
+                                        const Material& material, const ShadePoints& points,
+                                        const PlanSettings& settings, Report* report,
+                                        const Progress& progress);
     std::vector<std::shared_ptr<EnvironmentMaps>> prepare_maps(const Plan& plan,
                                                                std::vector<vulkan::PassTime>& times);
     Prefilter& prefilter();

@@ -6,6 +6,14 @@
 #include "burnish/vulkan/device.h"
 
 namespace burnish::render {
+namespace {
+
+std::string describe_maps(size_t count, const Environment& first) {
+    const uint32_t size = first.face_size();
+    return message(count, count == 1 ? " map" : " maps", " with faces of ", size, " x ", size, " texels");
+}
+
+} // namespace
 
 std::vector<std::shared_ptr<EnvironmentMaps>> Renderer::prepare_maps(const Plan& plan,
                                                                      std::vector<vulkan::PassTime>& times) {
@@ -38,10 +46,13 @@ std::vector<std::shared_ptr<EnvironmentMaps>> Renderer::prepare_maps(const Plan&
             result.push_back(found->maps);
             continue;
         }
-        const auto maps = std::make_shared<EnvironmentMaps>(device_, pyramid_, environments, filter,
-                                                            kernel ? &prefilter() : nullptr,
-                                                            kernel.value_or(PrefilterKernel::lobe));
-        if (set.lookup == MapLookup::software) maps->pack(texel_pairs());
+        const auto maps = needing_memory_for(describe_maps(environments.size(), *environments.front()), [&] {
+            auto made = std::make_shared<EnvironmentMaps>(device_, pyramid_, environments, filter,
+                                                          kernel ? &prefilter() : nullptr,
+                                                          kernel.value_or(PrefilterKernel::lobe));
+            if (set.lookup == MapLookup::software) made->pack(texel_pairs());
+            return made;
+        });
         add_pass_times(times, maps->pass_times());
         maps_.push_back({{environments.begin(), environments.end()}, filter, kernel, maps});
         result.push_back(maps);
@@ -62,20 +73,24 @@ TexelPairs& Renderer::texel_pairs() {
 std::vector<std::vector<float>> Renderer::pyramid(const std::shared_ptr<const Environment>& environment,
                                                   PyramidFilter filter,
                                                   std::vector<vulkan::PassTime>* times) {
-    const std::lock_guard lock(mutex_);
-    EnvironmentMaps maps(device_, pyramid_, std::span(&environment, 1), filter);
-    if (times) *times = maps.pass_times();
-    return maps.read_levels(0);
+    const auto lock = enter();
+    return within_memory(describe_maps(1, *environment), [&] {
+        EnvironmentMaps maps(device_, pyramid_, std::span(&environment, 1), filter);
+        if (times) *times = maps.pass_times();
+        return maps.read_levels(0);
+    });
 }
 
 std::vector<std::vector<float>> Renderer::prefiltered(PrefilterKernel kernel,
                                                       const std::shared_ptr<const Environment>& environment,
                                                       PyramidFilter filter,
                                                       std::vector<vulkan::PassTime>* times) {
-    const std::lock_guard lock(mutex_);
-    EnvironmentMaps maps(device_, pyramid_, std::span(&environment, 1), filter, &prefilter(), kernel);
-    if (times) *times = maps.pass_times();
-    return maps.read_levels(0);
+    const auto lock = enter();
+    return within_memory(describe_maps(1, *environment), [&] {
+        EnvironmentMaps maps(device_, pyramid_, std::span(&environment, 1), filter, &prefilter(), kernel);
+        if (times) *times = maps.pass_times();
+        return maps.read_levels(0);
+    });
 }
 
 } // namespace burnish::render

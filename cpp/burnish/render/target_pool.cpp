@@ -33,6 +33,11 @@ std::shared_ptr<FrameTargets> TargetPool::take(uint32_t width, uint32_t height, 
             }};
 }
 
+void TargetPool::clear() {
+    const std::lock_guard lock(mutex_);
+    idle_.clear();
+}
+
 void TargetPool::give_back(std::unique_ptr<FrameTargets> targets) {
     const std::lock_guard lock(mutex_);
     idle_.push_back(std::move(targets));

@@ -17,6 +17,8 @@ public:
 
     std::shared_ptr<FrameTargets> take(uint32_t width, uint32_t height, bool has_varying, bool has_sum,
                                        uint32_t class_count);
+    /// Lets go of those that wait.
+    void clear();
 
 private:
     void give_back(std::unique_ptr<FrameTargets> targets);

@@ -8,9 +8,11 @@ namespace burnish::vulkan {
 Buffer::Buffer(const DevicePointer& device, VkDeviceSize size_bytes, VkBufferUsageFlags usage, MemoryUse use)
     : size_bytes_(size_bytes) {
     const VkDeviceSize largest = device->features().max_allocation_bytes;
-    if (size_bytes == 0 || size_bytes > largest) {
-        throw std::invalid_argument(
-            message("size_bytes: expected 1..", largest, " for a buffer, got ", size_bytes));
+    if (size_bytes == 0)
+        throw std::invalid_argument(message("size_bytes: expected 1..", largest, " for a buffer, got 0"));
+    if (size_bytes > largest) { // vkCreateBuffer need not know such sizes
+        throw OutOfMemoryError(message("expected at most ", mebibytes(largest), " in one buffer on ",
+                                       device->info().name, ", got ", mebibytes(size_bytes)));
     }
     VkBufferCreateInfo info{VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO};
     info.size = size_bytes;

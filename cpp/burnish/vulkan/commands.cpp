@@ -8,7 +8,9 @@
 
 namespace burnish::vulkan {
 
-Commands::Commands(DevicePointer device) : device_(std::move(device)), frame_(device_->frames().acquire()) {
+Commands::Commands(DevicePointer device) : device_(std::move(device)) {
+    device_->require_usable();
+    frame_ = device_->frames().acquire();
     try {
         vk_check(vkResetCommandPool(device_->handle(), frame_.pool, 0), "vkResetCommandPool");
         VkCommandBufferBeginInfo info{VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO};
@@ -176,11 +178,11 @@ void Commands::read_timestamps() {
     for (std::size_t i = 0; i < passes_.size(); ++i) {
         const std::size_t query = 2 * i; // a pool holds an even number, so both ends are in one
         uint64_t ticks[2] = {};
-        vk_check(vkGetQueryPoolResults(device_->handle(),
-                                       frame_.queries[query / CommandFrames::queries_per_pool],
-                                       static_cast<uint32_t>(query % CommandFrames::queries_per_pool), 2,
-                                       sizeof(ticks), ticks, sizeof(uint64_t), VK_QUERY_RESULT_64_BIT),
-                 "vkGetQueryPoolResults");
+        device_->check(
+            vkGetQueryPoolResults(device_->handle(), frame_.queries[query / CommandFrames::queries_per_pool],
+                                  static_cast<uint32_t>(query % CommandFrames::queries_per_pool), 2,
+                                  sizeof(ticks), ticks, sizeof(uint64_t), VK_QUERY_RESULT_64_BIT),
+            "vkGetQueryPoolResults");
         const uint64_t elapsed = (ticks[1] - ticks[0]) & mask; // right also across a wrap
         passes_[i].milliseconds = static_cast<double>(elapsed) * features.timestamp_period_ns * 1e-6;
     }
@@ -192,12 +194,9 @@ void Commands::submit() {
     record_barrier(nullptr);
     vk_check(vkEndCommandBuffer(frame_.commands), "vkEndCommandBuffer");
     device_->raise_validation_errors();
-    const VkDevice device = device_->handle();
     device_->submit(frame_.commands, frame_.fence);
     is_submitted_ = true;
-    vk_check(vkWaitForFences(device, 1, &frame_.fence, VK_TRUE, std::numeric_limits<uint64_t>::max()),
-             "vkWaitForFences");
-    vk_check(vkResetFences(device, 1, &frame_.fence), "vkResetFences");
+    device_->wait(frame_.fence);
     read_timestamps();
     device_->raise_validation_errors();
 }

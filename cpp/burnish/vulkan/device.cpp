@@ -9,7 +9,9 @@
 
 #include <cstdio>
 #include <cstdlib>
+#include <limits>
 #include <string_view>
+#include <unistd.h>
 
 namespace burnish::vulkan {
 
@@ -94,8 +96,11 @@ bool validation_from_environment() {
     return value && std::string_view(value) != "" && std::string_view(value) != "0";
 }
 
+Device::Device() : process_(getpid()) {}
+
 std::shared_ptr<Device> Device::create(const DeviceSettings& settings) {
     const std::shared_ptr<Device> device(new Device);
+    device->memory_limit_bytes_ = settings.memory_limit_bytes;
     device->open_instance(settings.validation);
     device->choose(settings.name);
     device->open();
@@ -149,12 +154,19 @@ void Device::open() {
         end_label = reinterpret_cast<PFN_vkCmdEndDebugUtilsLabelEXT>(
             vkGetInstanceProcAddr(instance_, "vkCmdEndDebugUtilsLabelEXT"));
     }
-    memory_ = std::make_unique<MemoryPool>(*this);
+    memory_ = std::make_unique<MemoryPool>(*this, memory_limit_bytes_);
     descriptors_ = std::make_unique<DescriptorPools>(device_);
     frames_ = std::make_unique<CommandFrames>(device_, queue_family_);
 }
 
 Device::~Device() {
+    if (is_forked()) { // the driver would wait for threads that are in the other process
+        static_cast<void>(frames_.release());
+        static_cast<void>(descriptors_.release());
+        static_cast<void>(memory_.release());
+        static_cast<void>(log_.release());
+        return;
+    }
     if (device_ != VK_NULL_HANDLE) {
         vkDeviceWaitIdle(device_);
         frames_.reset();
@@ -196,8 +208,54 @@ void Device::submit(VkCommandBuffer commands, VkFence fence) const {
     VkSubmitInfo2 info{VK_STRUCTURE_TYPE_SUBMIT_INFO_2};
     info.commandBufferInfoCount = 1;
     info.pCommandBufferInfos = &buffer;
-    std::scoped_lock lock(queue_mutex_);
-    vk_check(vkQueueSubmit2(queue_, 1, &info, fence), "vkQueueSubmit2");
+    VkResult result = take_fault("vkQueueSubmit2");
+    if (result == VK_SUCCESS) {
+        std::scoped_lock lock(queue_mutex_);
+        result = vkQueueSubmit2(queue_, 1, &info, fence);
+    }
+    check(result, "vkQueueSubmit2");
+}
+
+void Device::wait(VkFence fence) const {
+    check(vkWaitForFences(device_, 1, &fence, VK_TRUE, std::numeric_limits<uint64_t>::max()),
+          "vkWaitForFences");
+    vk_check(vkResetFences(device_, 1, &fence), "vkResetFences");
+}
+
+bool Device::is_forked() const {
+    return process_ != getpid();
+}
+
+void Device::require_usable() const {
+    if (is_forked()) {
+        throw VulkanError(
+            "device: expected one that this process opened, got one from before a fork; make a new "
+            "burnish.Device, or start processes by \"spawn\"");
+    }
+    if (is_lost_)
+        throw VulkanError("device: expected a working one, got a lost one; make a new burnish.Device");
+}
+
+void Device::check(VkResult result, const char* what, std::source_location place) const {
+    if (result == VK_ERROR_DEVICE_LOST) is_lost_ = true;
+    vk_check(result, what, place);
+}
+
+void Device::inject_fault(std::string call, VkResult result, uint32_t skip, uint32_t times) const {
+    std::scoped_lock lock(fault_mutex_);
+    fault_ = Fault{std::move(call), result, skip, times};
+}
+
+VkResult Device::take_fault(const char* call) const {
+    std::scoped_lock lock(fault_mutex_);
+    if (!fault_ || fault_->call != call) return VK_SUCCESS;
+    if (fault_->skip > 0) {
+        fault_->skip -= 1;
+        return VK_SUCCESS;
+    }
+    if (fault_->times == 0) return VK_SUCCESS;
+    fault_->times -= 1;
+    return fault_->result;
 }
 
 } // namespace burnish::vulkan

@@ -4,10 +4,14 @@
 
 #include "burnish/vulkan/handle.h"
 
+#include <atomic>
 #include <cstdint>
 #include <memory>
 #include <mutex>
+#include <optional>
+#include <source_location>
 #include <string>
+#include <sys/types.h>
 #include <vector>
 #include <vulkan/vulkan.h>
 
@@ -39,6 +43,8 @@ struct DeviceSettings {
     std::string name{};
     // The validation layer with synchronization validation.
     bool validation = validation_from_environment();
+    // Most that is taken from the driver, of all kinds of memory together; none = what the driver gives.
+    std::optional<VkDeviceSize> memory_limit_bytes{};
 };
 
 /// What the device can do beyond the features every device must have.
@@ -92,6 +98,23 @@ public:
     uint32_t queue_family() const { return queue_family_; }
     /// Adds the commands to the queue; the fence tells when they are done.
     void submit(VkCommandBuffer commands, VkFence fence) const;
+    /// Waits for the fence and resets it.
+    void wait(VkFence fence) const;
+
+    /// True once a call returned VK_ERROR_DEVICE_LOST: nothing made from this device works any more.
+    bool is_lost() const { return is_lost_; }
+    /// Throws VulkanError if the device is lost, or this process is a fork of the one that opened it: the
+    /// driver's threads stayed behind, and waiting for them would take for ever.
+    void require_usable() const;
+    /// vk_check for what may say that the device is lost.
+    void check(VkResult result, const char* what,
+               std::source_location place = std::source_location::current()) const;
+
+    /// For tests of what no driver can be made to do: after `skip` further calls of the Vulkan function
+    /// `call`, the next `times` return `result` and do nothing.
+    void inject_fault(std::string call, VkResult result, uint32_t skip = 0, uint32_t times = 1) const;
+    /// VK_SUCCESS, or what a test wants the function to return instead of being called.
+    VkResult take_fault(const char* call) const;
 
     MemoryPool& memory() const { return *memory_; }
     DescriptorPools& descriptors() const { return *descriptors_; }
@@ -102,7 +125,8 @@ public:
     PFN_vkCmdEndDebugUtilsLabelEXT end_label = nullptr;
 
 private:
-    Device() = default;
+    Device();
+    bool is_forked() const;
     void open_instance(bool validation);
     void choose(const std::string& name);
     void open();
@@ -121,6 +145,17 @@ private:
     VkQueue queue_ = VK_NULL_HANDLE;
     VkPipelineCache pipeline_cache_ = VK_NULL_HANDLE;
     mutable std::mutex queue_mutex_;
+
+    pid_t process_; // that opened it
+    std::optional<VkDeviceSize> memory_limit_bytes_;
+    mutable std::atomic<bool> is_lost_ = false;
+    struct Fault {
+        std::string call;
+        VkResult result;
+        uint32_t skip, times;
+    };
+    mutable std::mutex fault_mutex_;
+    mutable std::optional<Fault> fault_;
 
     std::unique_ptr<MemoryPool> memory_;
     std::unique_ptr<DescriptorPools> descriptors_;

@@ -4,6 +4,8 @@
 #include "burnish/vulkan/result.h"
 
 #include <algorithm>
+#include <iomanip>
+#include <limits>
 
 namespace burnish::vulkan {
 
@@ -86,8 +88,14 @@ std::byte* Allocation::mapped() const {
     return block_ && block_->mapped ? block_->mapped + offset_ : nullptr;
 }
 
-MemoryPool::MemoryPool(const Device& device)
-    : device_(device.handle()), max_allocation_bytes_(device.features().max_allocation_bytes) {
+std::string mebibytes(VkDeviceSize size_bytes) {
+    const double size = static_cast<double>(size_bytes) / (1 << 20);
+    return message(std::fixed, std::setprecision(size < 10 ? 3 : 1), size, " MiB");
+}
+
+MemoryPool::MemoryPool(const Device& device, std::optional<VkDeviceSize> limit_bytes)
+    : device_(device.handle()), max_allocation_bytes_(device.features().max_allocation_bytes),
+      limit_bytes_(limit_bytes) {
     vkGetPhysicalDeviceMemoryProperties(device.physical(), &properties_);
 }
 
@@ -111,20 +119,33 @@ uint32_t MemoryPool::memory_type(uint32_t allowed_types, MemoryUse use) const {
     throw VulkanError("memory: expected a memory type that fits, got none");
 }
 
-MemoryBlock& MemoryPool::add_block(uint32_t memory_type, bool is_image, VkDeviceSize size) {
+VkResult MemoryPool::allocate_memory(const Device& device, uint32_t memory_type, MemoryBlock& block) const {
+    if (limit_bytes_ && block.size > *limit_bytes_ - std::min(*limit_bytes_, statistics_.reserved_bytes))
+        return VK_ERROR_OUT_OF_DEVICE_MEMORY;
+    if (const VkResult fault = device.take_fault("vkAllocateMemory"); fault != VK_SUCCESS) return fault;
     VkMemoryAllocateInfo info{VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO};
-    info.allocationSize = size;
+    info.allocationSize = block.size;
     info.memoryTypeIndex = memory_type;
+    return vkAllocateMemory(device_, &info, nullptr, &block.memory);
+}
+
+MemoryBlock& MemoryPool::add_block(const Device& device, uint32_t memory_type, bool is_image,
+                                   VkDeviceSize size) {
     auto block = std::make_unique<MemoryBlock>();
     block->size = size;
     block->memory_type = memory_type;
     block->is_image = is_image;
     block->free[0] = size;
-    const VkResult result = vkAllocateMemory(device_, &info, nullptr, &block->memory);
-    if (result == VK_ERROR_OUT_OF_DEVICE_MEMORY || result == VK_ERROR_OUT_OF_HOST_MEMORY) {
-        throw VulkanError(message("memory: expected ", size, " more bytes on the device, got ",
-                                  result_name(result), " with ", statistics_.reserved_bytes,
-                                  " bytes reserved"));
+    VkResult result = allocate_memory(device, memory_type, *block);
+    if (is_out_of_memory(result)) {
+        free_spares();
+        result = allocate_memory(device, memory_type, *block);
+    }
+    if (is_out_of_memory(result)) {
+        const std::string limit = limit_bytes_ ? " of the allowed " + mebibytes(*limit_bytes_) : "";
+        throw OutOfMemoryError(message("expected ", mebibytes(size), " more memory on ", device.info().name,
+                                       ", got ", result_name(result), " with ",
+                                       mebibytes(statistics_.reserved_bytes), limit, " taken"));
     }
     vk_check(result, "vkAllocateMemory");
     // Uncached memory is mapped only where the host just writes: reading it back is slower than a copy.
@@ -147,11 +168,13 @@ MemoryBlock& MemoryPool::add_block(uint32_t memory_type, bool is_image, VkDevice
 Allocation MemoryPool::allocate(const DevicePointer& device, const VkMemoryRequirements& needs, MemoryUse use,
                                 bool is_image) {
     if (needs.size > max_allocation_bytes_) {
-        throw VulkanError(message("memory: expected at most ", max_allocation_bytes_,
-                                  " bytes in one buffer or image, got ", needs.size));
+        throw OutOfMemoryError(message("expected at most ", mebibytes(max_allocation_bytes_),
+                                       " in one buffer or image on ", device->info().name, ", got ",
+                                       mebibytes(needs.size)));
     }
     const uint32_t type = memory_type(needs.memoryTypeBits, use);
-    const VkDeviceSize heap = properties_.memoryHeaps[properties_.memoryTypes[type].heapIndex].size;
+    const VkDeviceSize heap = std::min(properties_.memoryHeaps[properties_.memoryTypes[type].heapIndex].size,
+                                       limit_bytes_.value_or(std::numeric_limits<VkDeviceSize>::max()));
     const VkDeviceSize usual = std::min(block_bytes, align_up(heap / 8, 4096)); // small heaps: small blocks
 
     std::scoped_lock lock(mutex_);
@@ -165,7 +188,7 @@ Allocation MemoryPool::allocate(const DevicePointer& device, const VkMemoryRequi
         break;
     }
     if (!allocation.block_) {
-        MemoryBlock& block = add_block(type, is_image, is_dedicated ? needs.size : usual);
+        MemoryBlock& block = add_block(*device, type, is_image, is_dedicated ? needs.size : usual);
         block.is_dedicated = is_dedicated;
         block.take(needs.size, needs.alignment, allocation.offset_);
         allocation.block_ = &block;
@@ -189,10 +212,21 @@ void MemoryPool::release(MemoryBlock& block, VkDeviceSize offset, VkDeviceSize s
                other->memory_type == block.memory_type && other->is_image == block.is_image;
     });
     if (is_spare && !block.is_dedicated) return;
+    free_block(block);
+    blocks_.remove_if([&](const auto& other) { return other.get() == &block; });
+}
+
+void MemoryPool::free_block(const MemoryBlock& block) {
     vkFreeMemory(device_, block.memory, nullptr);
     statistics_.blocks -= 1;
     statistics_.reserved_bytes -= block.size;
-    blocks_.remove_if([&](const auto& other) { return other.get() == &block; });
+}
+
+void MemoryPool::free_spares() {
+    blocks_.remove_if([&](const auto& block) {
+        if (block->is_empty()) free_block(*block);
+        return block->is_empty();
+    });
 }
 
 MemoryStatistics MemoryPool::statistics() const {

@@ -9,6 +9,8 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <optional>
+#include <string>
 #include <vulkan/vulkan.h>
 
 namespace burnish::vulkan {
@@ -25,6 +27,9 @@ struct MemoryStatistics {
     VkDeviceSize reserved_bytes = 0; // size of all blocks
     VkDeviceSize used_bytes = 0;     // of these, in use
 };
+
+/// A size as messages give it: "12.5 MiB".
+std::string mebibytes(VkDeviceSize size_bytes);
 
 class MemoryPool;
 struct MemoryBlock;
@@ -54,23 +59,28 @@ private:
 /// images live in separate blocks, so bufferImageGranularity never matters. Thread-safe.
 class MemoryPool {
 public:
-    explicit MemoryPool(const Device& device);
+    explicit MemoryPool(const Device& device, std::optional<VkDeviceSize> limit_bytes = {});
     ~MemoryPool();
 
     static constexpr VkDeviceSize block_bytes = VkDeviceSize{64} << 20;
 
+    /// Throws OutOfMemoryError.
     Allocation allocate(const DevicePointer& device, const VkMemoryRequirements& needs, MemoryUse use,
                         bool is_image);
     MemoryStatistics statistics() const;
 
 private:
     friend class Allocation;
-    MemoryBlock& add_block(uint32_t memory_type, bool is_image, VkDeviceSize size);
+    MemoryBlock& add_block(const Device& device, uint32_t memory_type, bool is_image, VkDeviceSize size);
+    VkResult allocate_memory(const Device& device, uint32_t memory_type, MemoryBlock& block) const;
+    void free_block(const MemoryBlock& block);
+    void free_spares();
     void release(MemoryBlock& block, VkDeviceSize offset, VkDeviceSize size);
     uint32_t memory_type(uint32_t allowed_types, MemoryUse use) const;
 
     VkDevice device_;
     VkDeviceSize max_allocation_bytes_;
+    std::optional<VkDeviceSize> limit_bytes_;
     VkPhysicalDeviceMemoryProperties properties_{};
     mutable std::mutex mutex_;
     std::list<std::unique_ptr<MemoryBlock>> blocks_;

@@ -115,6 +115,13 @@ VkPipelineShaderStageCreateInfo stage_info(const Shader& shader, const Specializ
     return info;
 }
 
+/// Drivers return lack of memory for shaders that they cannot compile, so that is told as any other failure.
+void require_compiled(VkResult result, const PipelineInterface& interface, const char* call) {
+    if (result == VK_SUCCESS) return;
+    throw VulkanError(message(interface.name, ": expected the driver to compile it, ", call, " returned ",
+                              result_name(result), " (", static_cast<int>(result), ")"));
+}
+
 using Clock = std::chrono::steady_clock;
 
 double milliseconds_since(Clock::time_point begin) {
@@ -157,9 +164,12 @@ ComputePipeline::ComputePipeline(const DevicePointer& device, const Shader& shad
     info.layout = interface_->layout.get();
     VkPipeline pipeline = VK_NULL_HANDLE;
     const Clock::time_point begin = Clock::now();
-    vk_check(
-        vkCreateComputePipelines(device->handle(), device->pipeline_cache(), 1, &info, nullptr, &pipeline),
-        "vkCreateComputePipelines");
+    VkResult result = device->take_fault("vkCreateComputePipelines");
+    if (result == VK_SUCCESS) {
+        result = vkCreateComputePipelines(device->handle(), device->pipeline_cache(), 1, &info, nullptr,
+                                          &pipeline);
+    }
+    require_compiled(result, *interface_, "vkCreateComputePipelines");
     compile_ms_ = milliseconds_since(begin);
     pipeline_ = {device, pipeline};
 }
@@ -239,9 +249,12 @@ GraphicsPipeline::GraphicsPipeline(const DevicePointer& device, const Shader& ve
     info.layout = interface_->layout.get();
     VkPipeline pipeline = VK_NULL_HANDLE;
     const Clock::time_point begin = Clock::now();
-    vk_check(
-        vkCreateGraphicsPipelines(device->handle(), device->pipeline_cache(), 1, &info, nullptr, &pipeline),
-        "vkCreateGraphicsPipelines");
+    VkResult result = device->take_fault("vkCreateGraphicsPipelines");
+    if (result == VK_SUCCESS) {
+        result = vkCreateGraphicsPipelines(device->handle(), device->pipeline_cache(), 1, &info, nullptr,
+                                           &pipeline);
+    }
+    require_compiled(result, *interface_, "vkCreateGraphicsPipelines");
     compile_ms_ = milliseconds_since(begin);
     pipeline_ = {device, pipeline};
 }

@@ -53,10 +53,17 @@ const char* result_name(VkResult result) {
 
 void vk_check(VkResult result, const char* what, std::source_location place) {
     if (result == VK_SUCCESS) return;
-    const char* advice = result == VK_ERROR_DEVICE_LOST ? "; the device is lost, create a new Device" : "";
-    throw VulkanError(message(what, ": expected VK_SUCCESS, got ", result_name(result), " (",
-                              static_cast<int>(result), ")", advice, " [", place.file_name(), ":",
-                              place.line(), "]"));
+    const char* advice =
+        result == VK_ERROR_DEVICE_LOST ? "; the device is lost, make a new burnish.Device" : "";
+    const std::string text =
+        message(what, ": expected VK_SUCCESS, got ", result_name(result), " (", static_cast<int>(result), ")",
+                advice, " [", place.file_name(), ":", place.line(), "]");
+    if (is_out_of_memory(result)) throw OutOfMemoryError(text);
+    throw VulkanError(text);
+}
+
+bool is_out_of_memory(VkResult result) {
+    return result == VK_ERROR_OUT_OF_DEVICE_MEMORY || result == VK_ERROR_OUT_OF_HOST_MEMORY;
 }
 
 } // namespace burnish::vulkan

@@ -30,7 +30,7 @@ Shader::Shader(const DevicePointer& device, std::string name, std::span<const ui
     info.pCode = words.data();
     VkShaderModule shader_module = VK_NULL_HANDLE;
     vk_check(vkCreateShaderModule(raw_device(*device), &info, nullptr, &shader_module),
-             "vkCreateShaderModule");
+             (name_ + ": vkCreateShaderModule").c_str());
     module_ = {device, shader_module};
 }
 

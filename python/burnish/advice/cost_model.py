@@ -17,6 +17,7 @@ from typing import Any
 import burnish
 from burnish import _core, builtin
 from burnish.advice.families import FAMILIES, sampler_text
+from burnish.images.files import write_text
 from burnish.rendering import render
 from burnish.study.sampler_text import sampler_from_text
 
@@ -151,9 +152,7 @@ class CostModel:
         }
         try:
             self._path.parent.mkdir(parents=True, exist_ok=True)
-            part = self._path.with_suffix(f".{os.getpid()}.part")
-            part.write_text(json.dumps(data, indent=1) + "\n", encoding="utf-8")
-            part.replace(self._path)
+            write_text(self._path, json.dumps(data, indent=1) + "\n")
         except OSError:
             pass  # a read-only home: the rates last as long as the process
 

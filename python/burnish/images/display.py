@@ -65,6 +65,11 @@ def write_png(path: str | os.PathLike[str], image: NDArray[Any], exposure: float
         As `display_image` takes it; uint8 arrays are written as they are.
     exposure : float
         Stops.
+
+    Raises
+    ------
+    FileError
+        If it cannot be written; a file of that name is then as it was.
     """
     pixels = image if image.dtype == np.uint8 else display_image(image, exposure)
     picture = Image.fromarray(np.ascontiguousarray(pixels))

@@ -165,6 +165,11 @@ def write_exr(
         Header attributes: text as it is, everything else as JSON text.
     half : bool
         Round to half floats, finite values clamped to their range. Otherwise float32; uint32 arrays stay.
+
+    Raises
+    ------
+    FileError
+        If it cannot be written; a file of that name is then as it was.
     """
     header: dict[str, Any] = {"compression": OpenEXR.ZIP_COMPRESSION, "type": OpenEXR.scanlineimage}
     reserved = {
@@ -189,4 +194,7 @@ def write_exr(
             typed = array if array.dtype == np.uint32 else array.astype(np.float32)
         channels[name] = np.ascontiguousarray(typed)
     with replacing(path) as temporary, OpenEXR.File(header, channels) as file:
-        file.write(temporary)
+        try:
+            file.write(temporary)
+        except RuntimeError as error:  # the package wraps what the system said
+            raise file_error(path, f"cannot be written: {error}") from error

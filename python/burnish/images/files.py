@@ -27,22 +27,77 @@ def require_pixels(path: str | os.PathLike[str], what: str, height: int, width: 
 
 
 @contextmanager
+def told_as_file_error(path: str | os.PathLike[str]) -> Iterator[None]:
+    """Turn what the system says while the block writes, such as that the disk is full, into a FileError."""
+    try:
+        yield
+    except FileError:
+        raise
+    except OSError as error:
+        raise file_error(path, f"cannot be written: {error.strerror or error}") from error
+
+
+@contextmanager
 def replacing(path: str | os.PathLike[str]) -> Iterator[str]:
-    """Give the name of a temporary file beside `path` that becomes `path` when the block succeeds."""
-    target = Path(path)
+    """Give the name of a temporary file beside `path` that becomes `path` when the block succeeds.
+
+    Whatever happens in between, `path` is the old file or the whole new one. A process that is killed leaves
+    the temporary file, ``.NAME-*.part`` and the ending of the name, and nothing else. What is no plain file,
+    such as a pipe, is written to as it is.
+
+    Parameters
+    ----------
+    path : path
+        Its folder must exist. A link stays one: the file that it leads to is replaced.
+
+    Raises
+    ------
+    FileError
+        If the system cannot write, in the block or after it.
+    """
+    target = Path(os.path.realpath(path))
+    if target.exists() and not target.is_file():
+        with told_as_file_error(path):
+            yield os.fspath(path)
+        return
     try:
         descriptor, temporary = tempfile.mkstemp(
-            prefix=f".{target.name}-", suffix=target.suffix, dir=target.parent
+            prefix=f".{target.name}-", suffix=f".part{target.suffix}", dir=target.parent
         )
     except OSError as error:
         raise file_error(path, f"cannot write into {target.parent}: {error.strerror}") from error
     os.close(descriptor)
     try:
-        yield temporary
-        umask = os.umask(0)
-        os.umask(umask)
-        os.chmod(temporary, 0o666 & ~umask)  # mkstemp makes it private; a new file would not be
-        os.replace(temporary, target)
+        with told_as_file_error(path):
+            yield temporary
+            _flush_to_disk(temporary)
+            umask = os.umask(0)
+            os.umask(umask)
+            os.chmod(temporary, 0o666 & ~umask)  # mkstemp makes it private; a new file would not be
+            os.replace(temporary, target)
     except BaseException:
         Path(temporary).unlink(missing_ok=True)
         raise
+
+
+def _flush_to_disk(path: str) -> None:
+    """Wait until the file is on disk: some file systems say only then that they are full."""
+    descriptor = os.open(path, os.O_RDONLY)
+    try:
+        os.fsync(descriptor)
+    finally:
+        os.close(descriptor)
+
+
+def write_text(path: str | os.PathLike[str], text: str) -> None:
+    """Write a UTF-8 file, whole or not at all.
+
+    Parameters
+    ----------
+    path : path
+        As `replacing` takes it.
+    text : str
+        All of it.
+    """
+    with replacing(path) as temporary:
+        Path(temporary).write_text(text, encoding="utf-8")

@@ -26,6 +26,7 @@ from burnish.advice.families import FAMILIES, sampler_text
 from burnish.advice.reduced_maps import reduce_environment, reduced_face_size
 from burnish.advice.truth import extrapolate
 from burnish.frame import FloatArray
+from burnish.images.files import write_text
 from burnish.rendering import shade
 from burnish.study.calibration_points import WeightedPoints, points_at_angle
 from burnish.study.calibration_set import TRAINING_LOBES, training_environments
@@ -156,7 +157,7 @@ def main() -> int:
         data["families"][family], spread = fit_family(measured)
         data["spread"][family] = round(spread, 3)
         print(f"{family}: predicted over measured, rms of the logarithm: {spread:.3f}")
-    options.output.write_text(json.dumps(data, indent=1) + "\n", encoding="utf-8")
+    write_text(options.output, json.dumps(data, indent=1) + "\n")
     print(f"wrote {options.output}")
     return 0
 

@@ -23,6 +23,7 @@ from burnish.advice import Advice, advise
 from burnish.advice.families import FAMILIES, sampler_text
 from burnish.advice.reduced_maps import reduced_face_size
 from burnish.advice.truth import draw_dense, draw_truth
+from burnish.images.files import write_text
 from burnish.rendering import render
 from burnish.study.calibration_set import UNSEEN_LOBES, unseen_environments
 from burnish.study.sampler_text import sampler_from_text
@@ -277,7 +278,7 @@ def main() -> int:
     ]
     print("", *lines, sep="\n")
     if options.output:
-        options.output.write_text("\n".join(lines) + "\n", encoding="utf-8")
+        write_text(options.output, "\n".join(lines) + "\n")
     return 0 if all(holds(outcomes, target) for target in TARGETS) else 1
 
 

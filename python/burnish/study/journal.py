@@ -4,7 +4,7 @@ import json
 import os
 from pathlib import Path
 
-from burnish.images.files import file_error
+from burnish.images.files import file_error, told_as_file_error
 from burnish.study.rows import Row
 
 
@@ -42,14 +42,17 @@ class Journal:
         return row if row is not None and row["runs"] >= least_runs else None
 
     def append(self, row: Row) -> None:
-        """Keep a row; when this returns it is on disk."""
+        """Keep a row; when this returns it is on disk.
+
+        Raises
+        ------
+        FileError
+            If it cannot be written; then the file ends with the row before.
+        """
+        if self._path is not None:
+            with told_as_file_error(self._path):
+                _append_line(self._path, json.dumps(row).encode() + b"\n")
         self._rows[row["key"]] = row
-        if self._path is None:
-            return
-        with open(self._path, "a", encoding="utf-8") as stream:
-            stream.write(json.dumps(row) + "\n")
-            stream.flush()
-            os.fsync(stream.fileno())
 
     def _read(self, path: Path) -> None:
         text = path.read_bytes()
@@ -67,3 +70,17 @@ class Journal:
             # The process died while it wrote: the next row must not be glued to the rest.
             with open(path, "r+b") as stream:
                 stream.truncate(len(complete))
+
+
+def _append_line(path: Path, line: bytes) -> None:
+    """Append all of a line, or nothing: the next row must not be glued to a part of this one."""
+    with open(path, "ab", buffering=0) as stream:
+        end = stream.tell()
+        try:
+            written = 0
+            while written < len(line):  # a disk that is nearly full takes a part
+                written += stream.write(line[written:])
+            os.fsync(stream.fileno())
+        except BaseException:
+            stream.truncate(end)
+            raise

@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
 
-from burnish.images.files import file_error, replacing
+from burnish.images.files import file_error, replacing, write_text
 from burnish.study.pareto import pareto_front
 from burnish.study.rows import Row, cell_of, cell_title, format_value
 from burnish.study.store import CellPictures
@@ -124,7 +124,7 @@ class Study:
         """
         from burnish.study.page import make_page
 
-        _write_text(path, make_page(self))
+        write_text(path, make_page(self))
 
     def save_json(self, path: str | os.PathLike[str]) -> None:
         """Write the rows as JSON; `load_json` reads them.
@@ -135,7 +135,7 @@ class Study:
             Its folder must exist.
         """
         data = {"burnish_study": FORMAT, "command": self.command, "notes": self.notes, "rows": self.rows}
-        _write_text(path, json.dumps(data, indent=1, allow_nan=False) + "\n")
+        write_text(path, json.dumps(data, indent=1, allow_nan=False) + "\n")
 
     @classmethod
     def load_json(cls, path: str | os.PathLike[str]) -> "Study":
@@ -221,8 +221,3 @@ def _line(words: Sequence[str], widths: Sequence[int]) -> str:
     mark, first, *rest = words
     numbers = [f"{word:>{width}}" for word, width in zip(rest, widths[2:], strict=True)]
     return "  ".join([f" {mark:1} {first:<{widths[1]}}", *numbers]).rstrip()
-
-
-def _write_text(path: str | os.PathLike[str], text: str) -> None:
-    with replacing(path) as temporary:
-        Path(temporary).write_text(text, encoding="utf-8")

@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 from tqdm import tqdm
 
+from burnish.images.files import write_text
 from burnish.oracle.matched_table import COUNTS, TABLE_PATH, mixture_at
 from burnish.oracle.spherical_pyramid import PREFILTER_SAMPLES
 from burnish.tables.fit_objective import Mixtures, copies, fit, quantiser
@@ -92,7 +93,7 @@ def main() -> None:
         if getattr(arguments, name) != parser.get_default(name)
     )
     header = _HEADER.format(arguments=changed, counts=", ".join(map(str, COUNTS)))
-    arguments.output.write_text(header + "".join(text), encoding="ascii")
+    write_text(arguments.output, header + "".join(text))
 
 
 if __name__ == "__main__":

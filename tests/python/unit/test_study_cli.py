@@ -81,6 +81,15 @@ def test_everything_asked_for_is_written(fake_sweep, tmp_path, capsys):
     assert capsys.readouterr().out == ""
 
 
+def test_one_file_that_cannot_be_written_costs_no_other(fake_sweep, tmp_path, capsys):
+    rows, table = tmp_path / "rows.json", tmp_path / "rows.csv"
+    rows.symlink_to("/dev/full")
+    assert cli.main(["study", "sphere", "--json", str(rows), "--csv", str(table)]) == 2
+    out, err = capsys.readouterr()
+    assert "regular:10" in out and f"wrote {table}" in out and table.stat().st_size > 0
+    assert err == f"burnish study: error: {rows}: cannot be written: No space left on device\n"
+
+
 def test_an_interruption_writes_what_there_is(monkeypatch, tmp_path, capsys):
     def sweep(*arguments, **named):
         study = run_cells([make_cell(FakeSubject())], Journal(), PictureStore(), True, False)
@@ -91,6 +100,16 @@ def test_an_interruption_writes_what_there_is(monkeypatch, tmp_path, capsys):
     assert cli.main(["study", "sphere", "--json", str(path), "--journal", str(tmp_path / "j.jsonl")]) == 130
     assert len(burnish.study.Study.load_json(path).rows) == 3
     assert "interrupted after 3 rows; the same command takes up from here" in capsys.readouterr().err
+
+
+def test_an_interruption_without_a_journal_names_the_option(monkeypatch, capsys):
+    def sweep(*arguments, **named):
+        raise StudyInterrupted(run_cells([make_cell(FakeSubject())], Journal(), PictureStore(), True, False))
+
+    monkeypatch.setattr(burnish.study, "sweep", sweep)
+    assert cli.main(["study", "sphere"]) == 130
+    err = capsys.readouterr().err
+    assert err == "burnish study: interrupted after 3 rows; --journal FILE would let it go on\n"
 
 
 @pytest.mark.parametrize(

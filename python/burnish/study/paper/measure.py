@@ -4,13 +4,12 @@ import json
 import os
 from dataclasses import asdict, dataclass, field
 from datetime import datetime, timezone
-from pathlib import Path
 from typing import Any
 
 import burnish
 from burnish import _core, environments
 from burnish._device import default_device
-from burnish.images.files import replacing
+from burnish.images.files import write_text
 from burnish.study.paper.formulas import examine_formulas
 from burnish.study.paper.pictures import draw_cells, picture_steps
 from burnish.study.paper.settings import FILTERS, PaperSettings
@@ -58,7 +57,7 @@ class Paper:
         """
         from burnish.study.paper.page import make_page
 
-        _write_text(path, make_page(self))
+        write_text(path, make_page(self))
 
     def save_json(self, path: str | os.PathLike[str]) -> None:
         """Write numbers and verdicts.
@@ -70,12 +69,7 @@ class Paper:
         """
         verdicts = [asdict(verdict) for verdict in list_verdicts(self.numbers)]
         data = {"burnish_paper": FORMAT, **self.numbers, "verdicts": verdicts}
-        _write_text(path, json.dumps(data, indent=1, allow_nan=False) + "\n")
-
-
-def _write_text(path: str | os.PathLike[str], text: str) -> None:
-    with replacing(path) as temporary:
-        Path(temporary).write_text(text, encoding="utf-8")
+        write_text(path, json.dumps(data, indent=1, allow_nan=False) + "\n")
 
 
 def measure_paper(
