@@ -1,10 +1,11 @@
 // What this machine can do at best with the engine's method: Regular as published (one round Kurt lobe,
 // trilinear) by hand, on the engine's own data: a packed normal a pixel, a table of samples, and a map in
-// pairs of texels (glsl/shared/texel_pairs.h). It is one file of its own, with nothing of the engine in it;
-// scripts/bench writes its input and compares pictures and times.
+// pairs of texels (glsl/shared/texel_pairs.h). Nothing of the engine is in it; scripts/bench writes its input
+// and compares pictures and times.
 //
-//   shading_loop INPUT THREADS RUNS [PICTURE]       prints the milliseconds of each run; PICTURE is RGBA in
-//   float32
+//   shading_loop INPUT THREADS RUNS [PICTURE]
+//
+// prints the milliseconds of each run. PICTURE is RGBA in float32.
 #include <algorithm>
 #include <atomic>
 #include <bit>
