@@ -54,7 +54,8 @@ def _help() -> str:
             "",
             "--compare calls slower or faster what lies farther than --margin from before with all of the",
             "99 % interval of the ratio of medians (bootstrap over all runs); it exits with 1 if anything is",
-            "slower.",
+            "slower. Machines drift from minute to minute: to judge small changes go back and forth, each time",
+            "with the same two files, which then hold the runs of all times.",
         ]
     )
 
@@ -72,7 +73,9 @@ def main() -> int:
     parser.add_argument("--full", action="store_true", help="also the dear ends of the curves, minutes")
     parser.add_argument("--repeats", type=int, default=9, help="runs of each (default: 9; curves take half)")
     parser.add_argument("--device", default="", help="part of a device's name")
-    parser.add_argument("--json", type=Path, metavar="FILE", help="write all runs; adds to this day's FILE")
+    parser.add_argument(
+        "--json", type=Path, metavar="FILE", help="write all runs, after those of FILE if it is of today"
+    )
     parser.add_argument("--plot", type=Path, metavar="PNG", help="draw the curves, --json's FILE included")
     parser.add_argument(
         "--compare", type=Path, nargs="+", metavar="JSON", help="BEFORE AFTER, or BEFORE against this run"
@@ -105,16 +108,25 @@ def measure(options: argparse.Namespace) -> dict:
         else:
             CURVES[name][0](bench, options.full)
         sys.stdout.flush()
-    run = bench.to_dict()
-    if all(earlier.get(key) == run[key] for key in ("device", "driver", "date")):
-        for key in ("figures", "statements", "curves"):
-            run[key] = earlier[key] | run[key]
+    run = add_runs(earlier, bench.to_dict())
     if options.json:
         options.json.write_text(json.dumps(run, indent=1) + "\n")
     plot = options.plot or (options.json.with_suffix(".png") if options.scaling and options.json else None)
     if plot and run["curves"]:
         plot_curves(run, plot)
     return run
+
+
+def add_runs(earlier: dict, run: dict) -> dict:
+    """Put what was measured earlier before it, if that was the same device, driver and day."""
+    if not all(earlier.get(key) == run[key] for key in ("device", "driver", "date")):
+        return run
+    figures = {name: earlier["figures"].get(name, []) + runs for name, runs in run["figures"].items()}
+    return (
+        run
+        | {key: earlier[key] | run[key] for key in ("statements", "curves")}
+        | {"figures": earlier["figures"] | figures}
+    )
 
 
 def judge(before: dict, after: dict, margin: float) -> int:

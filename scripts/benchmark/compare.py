@@ -77,6 +77,9 @@ def table(before: dict, after: dict, changes: Sequence[Change], margin: float) -
     for name, run, other in named:
         if missing := len(set(run["figures"]) - set(other["figures"])):
             lines.append(f"{missing} figures are in {name} only")
+    if changes:
+        together = float(np.median([change.ratio for change in changes]))
+        lines.append(f"median of all ratios: {together:.3f}; where all moved alike, it may be the machine")
     counts = [(v, sum(c.verdict == v for c in changes)) for v in (SLOWER, FASTER, NOISE, TOO_FEW)]
     lines.append(", ".join(f"{count} {verdict}" for verdict, count in counts))
     return "\n".join(lines)

@@ -15,23 +15,25 @@ FULL_TRIANGLES = (10_000_000,)
 MATERIALS = (1, 2, 4, 6, 8, 16, 32, 64)
 LOBES = (1, 2, 3, 4)
 SPHERES = 64
-KEYS = ("wall", "shade", "surface", "read back")
+KEYS = ("wall", "shade", "surface")
 SAMPLERS = {"regular 14": burnish.Regular(14), "matched 14": burnish.Matched(14)}
 
 
 def keep_curve(
     bench: Bench,
-    name: str,
-    unit: str,
+    curve: str,
     points: Mapping[int, str],
     times: Mapping[str, Mapping[str, float]],
     keys: Sequence[str] = KEYS,
+    sampler: str = "",
 ) -> None:
-    """Note the curve through `points` (value: measure of part `name`) and print its lines."""
-    curve = bench.curves.setdefault(name, {"unit": unit, "lines": {}})
+    """Note the lines through `points` (how many: name of the measure) and print them."""
+    part = f"{curve}, {sampler}" if sampler else curve
+    lines = bench.curves.setdefault(curve, {})
     for key in keys:
-        curve["lines"][key] = [[x, f"{name}: {measure}: {key}"] for x, measure in points.items()]
-    print(f"  {unit:<12}" + "".join(f"{key + ' ms':>14}" for key in keys))
+        text = f"{sampler}, {key}" if sampler else key
+        lines[text] = [[x, f"{part}: {measure}: {key}"] for x, measure in points.items()]
+    print(f"  {curve:<12}" + "".join(f"{key + ' ms':>14}" for key in keys))
     for x, measure in points.items():
         print(f"  {x:<12}" + "".join(f"{times[measure][key]:14.4g}" for key in keys))
 
@@ -46,7 +48,7 @@ def curve_of_cores(bench: Bench) -> None:
     for worker in workers.values():
         worker.close()
     print("\ncores: a process each, regular 20 as published, every pixel of 1920 x 1080")
-    keep_curve(bench, "cores", "cores", {cores: str(cores) for cores in workers}, times)
+    keep_curve(bench, "cores", {cores: str(cores) for cores in workers}, times)
     most = max(workers)
     bench.state(f"shade pass, 1 : {most} cores", times["1"]["shade"] / times[str(most)]["shade"])
 
@@ -59,7 +61,7 @@ def curve_of_pixels(bench: Bench, is_full: bool) -> None:
     }
     times = bench.alternate("pixels", measures, _few(bench))
     print("\npixels: regular 20 as published, every pixel of 480p to 2160p (--full: 4320p)")
-    keep_curve(bench, "pixels", "pixels", {h * w: name for (h, w), name in sizes.items()}, times)
+    keep_curve(bench, "pixels", {h * w: name for (h, w), name in sizes.items()}, times)
     _print_each("ns a pixel", {h * w: times[name] for (h, w), name in sizes.items()}, ("wall", "shade"))
 
 
@@ -77,7 +79,7 @@ def curve_of_triangles(bench: Bench, is_full: bool) -> None:
         )
         points[count] = str(count)
     print("\ntriangles: a sphere in a 1920 x 1080 picture, regular 20 as published, the mesh on the device")
-    keep_curve(bench, "triangles", "triangles", points, times)
+    keep_curve(bench, "triangles", points, times)
     _print_each("ns a triangle", {x: times[name] for x, name in points.items()}, ("wall", "surface"))
 
 
@@ -114,16 +116,15 @@ def _curves_by_sampler(
     bench: Bench, name: str, scenes: Mapping[int, burnish.Scene], view: burnish.Camera | None
 ) -> None:
     for sampler_name, sampler in SAMPLERS.items():
-        part = f"{name}, {sampler_name}"
         measures = {
             str(x): frame_measure(
                 bench.device, scene, sampler, view or scene.default_camera(), is_in_turns=True
             )
             for x, scene in scenes.items()
         }
-        times = bench.alternate(part, measures, _few(bench))
+        times = bench.alternate(f"{name}, {sampler_name}", measures, _few(bench))
         print(f"  {sampler_name}")
-        keep_curve(bench, part, name, {x: str(x) for x in scenes}, times, ("wall", "shade", "tiles"))
+        keep_curve(bench, name, {x: str(x) for x in scenes}, times, ("wall", "shade"), sampler_name)
 
 
 def _few(bench: Bench) -> int:

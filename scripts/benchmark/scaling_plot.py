@@ -3,6 +3,8 @@
 import statistics
 from pathlib import Path
 
+ORDER = ("cores", "pixels", "triangles", "materials", "lobes")
+
 
 def plot_curves(run: dict, path: Path) -> None:
     """Draw every curve of what --json writes."""
@@ -10,26 +12,30 @@ def plot_curves(run: dict, path: Path) -> None:
 
     matplotlib.use("Agg")
     import matplotlib.pyplot as plt
+    from matplotlib.ticker import NullFormatter
 
-    curves = run["curves"]
-    columns = min(4, len(curves))
+    curves = [(name, run["curves"][name]) for name in ORDER if name in run["curves"]]
+    columns = min(3, len(curves))
     rows = -(-len(curves) // columns)
-    figure, axes = plt.subplots(rows, columns, figsize=(3.4 * columns, 2.9 * rows), squeeze=False)
+    figure, axes = plt.subplots(rows, columns, figsize=(3.6 * columns, 2.9 * rows), squeeze=False)
     for axis in axes.flat[len(curves) :]:
         axis.set_visible(False)
-    for axis, (name, curve) in zip(axes.flat, curves.items(), strict=False):
-        for key, points in curve["lines"].items():
-            rates = [(x, statistics.median(run["figures"][figure_name])) for x, figure_name in points]
-            if all(y > 0 for _, y in rates):
-                axis.plot(*zip(*rates, strict=True), marker="o", markersize=3, linewidth=1, label=key)
+    for axis, (name, lines) in zip(axes.flat, curves, strict=False):
+        for key, points in lines.items():
+            curve = [(x, statistics.median(run["figures"][figure_name])) for x, figure_name in points]
+            axis.plot(*zip(*curve, strict=True), marker="o", markersize=3, linewidth=1, label=key)
         axis.set_xscale("log")
         axis.set_yscale("log")
-        axis.set_title(name, fontsize=9)
-        axis.set_xlabel(curve["unit"], fontsize=8)
+        if curve[-1][0] < 100:
+            axis.set_xticks([x for x, _ in curve], [str(x) for x, _ in curve], minor=False)
+            axis.xaxis.set_minor_formatter(NullFormatter())
+        axis.yaxis.set_minor_formatter(NullFormatter())
+        axis.set_xlabel(name, fontsize=8)
         axis.tick_params(labelsize=7)
         axis.grid(alpha=0.3, which="both", linewidth=0.4)
         axis.legend(fontsize=7)
-    axes[0, 0].set_ylabel("ms", fontsize=8)
+    for row in axes:
+        row[0].set_ylabel("ms", fontsize=8)
     figure.suptitle(f"{run['device']}, {run['date']}", fontsize=9)
     figure.tight_layout()
     figure.savefig(path, dpi=120)

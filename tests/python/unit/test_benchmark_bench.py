@@ -69,10 +69,19 @@ def test_wrong_arguments_are_named(monkeypatch, capsys, arguments, text):
     assert text in capsys.readouterr().err
 
 
+def test_runs_of_one_day_add_up_and_others_are_left(bench):
+    today = {"device": "d", "driver": "1", "date": "2026-11-26", "statements": {}, "curves": {}}
+    earlier = today | {"figures": {"a": [1.0], "b": [2.0]}}
+    run = today | {"figures": {"a": [3.0], "c": [4.0]}}
+    assert command.add_runs(earlier, run)["figures"] == {"a": [1.0, 3.0], "b": [2.0], "c": [4.0]}
+    assert command.add_runs(earlier | {"date": "2026-11-25"}, run) == run
+    assert command.add_runs({}, run) == run
+
+
 def test_curves_are_drawn(tmp_path, bench):
     bench.figures = {"pixels: 480p: wall": [1.0, 2.0], "pixels: 720p: wall": [3.0]}
     points = [[10, "pixels: 480p: wall"], [20, "pixels: 720p: wall"]]
-    curves = {"pixels": {"unit": "pixels", "lines": {"wall": points}}}
+    curves = {"pixels": {"wall": points}}
     run = {"device": "d", "date": "2026-11-26", "figures": bench.figures, "curves": curves}
     plot_curves(run, tmp_path / "curves.png")
     assert (tmp_path / "curves.png").stat().st_size > 1000

@@ -85,6 +85,7 @@ def test_the_table_names_other_devices_and_shouts_regressions(rng):
     text = table(before, after, compare(before, after, MARGIN), MARGIN)
     assert "not the same device and driver" in text
     assert "SLOWER" in text
+    assert "median of all ratios: 2.0" in text
 
 
 def test_read_run_refuses_other_files(tmp_path):
