@@ -54,7 +54,7 @@ def _help() -> str:
             "",
             "--compare calls slower or faster what lies farther than --margin from before with all of the",
             "99 % interval of the ratio of medians (bootstrap over all runs); it exits with 1 if anything is",
-            "slower. Machines drift from minute to minute: to judge small changes go back and forth, each time",
+            "slower. Machines drift from minute to minute: to judge small changes go back and forth, always",
             "with the same two files, which then hold the runs of all times.",
         ]
     )
