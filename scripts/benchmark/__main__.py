@@ -56,6 +56,8 @@ def _help() -> str:
             "99 % interval of the ratio of medians (bootstrap over all runs); it exits with 1 if anything is",
             "slower. Machines drift from minute to minute: to judge small changes go back and forth, always",
             "with the same two files, which then hold the runs of all times.",
+            "On a CPU device every measure has a figure `cpu`, the time of all threads: compare these alone",
+            "where the machine has other work.",
         ]
     )
 
@@ -81,6 +83,7 @@ def main() -> int:
         "--compare", type=Path, nargs="+", metavar="JSON", help="BEFORE AFTER, or BEFORE against this run"
     )
     parser.add_argument("--margin", type=float, default=0.05, help="least change (default: .05)")
+    parser.add_argument("--figures", default="*", metavar="PATTERN", help='compare these: "*: cpu"')
     options = parser.parse_args()
     if unknown := set(options.parts) - set(names):
         parser.error(f"PART: expected any of {', '.join(names)}, got {', '.join(sorted(unknown))}")
@@ -94,7 +97,7 @@ def main() -> int:
         run = files.pop()
     else:
         run = measure(options)
-    return judge(files[0], run, options.margin) if files else 0
+    return judge(files[0], run, options.margin, options.figures) if files else 0
 
 
 def measure(options: argparse.Namespace) -> dict:
@@ -129,9 +132,9 @@ def add_runs(earlier: dict, run: dict) -> dict:
     )
 
 
-def judge(before: dict, after: dict, margin: float) -> int:
+def judge(before: dict, after: dict, margin: float, pattern: str) -> int:
     """Print the comparison; the exit status."""
-    changes = compare(before, after, margin)
+    changes = compare(before, after, margin, pattern)
     print(table(before, after, changes, margin))
     return int(any(change.verdict == SLOWER for change in changes))
 

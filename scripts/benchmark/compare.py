@@ -3,6 +3,7 @@
 import json
 from collections.abc import Sequence
 from dataclasses import dataclass
+from fnmatch import fnmatch
 from pathlib import Path
 
 import numpy as np
@@ -50,9 +51,9 @@ def compare_runs(figure: str, before: Sequence[float], after: Sequence[float], m
     return Change(figure, before_ms, after_ms, ratio, low, high, verdict)
 
 
-def compare(before: dict, after: dict, margin: float) -> list[Change]:
-    """Judge every figure that both runs have and that takes any time, in the order of the second."""
-    common = [name for name in after["figures"] if name in before["figures"]]
+def compare(before: dict, after: dict, margin: float, pattern: str = "*") -> list[Change]:
+    """Judge the figures of a name that both runs have and that take any time, in the order of the second."""
+    common = [name for name in after["figures"] if name in before["figures"] and fnmatch(name, pattern)]
     runs = [(name, before["figures"][name], after["figures"][name]) for name in common]
     return [compare_runs(name, a, b, margin) for name, a, b in runs if min(*a, *b) > 0]
 

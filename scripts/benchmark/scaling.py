@@ -5,7 +5,7 @@ from collections.abc import Mapping, Sequence
 import burnish
 from burnish import environments
 
-from .bench import PUBLISHED, ROUGHNESS, Bench, Measure, camera, frame_measure, sphere_scene
+from .bench import CPU, PUBLISHED, ROUGHNESS, Bench, Measure, camera, frame_measure, sphere_scene
 from .workers import CoreWorker, core_counts
 
 HEIGHTS = (480, 720, 1080, 1440, 2160)
@@ -30,6 +30,7 @@ def keep_curve(
     """Note the lines through `points` (how many: name of the measure) and print them."""
     part = f"{curve}, {sampler}" if sampler else curve
     lines = bench.curves.setdefault(curve, {})
+    keys = [*keys, CPU] if bench.is_on_cpu else keys
     for key in keys:
         text = f"{sampler}, {key}" if sampler else key
         lines[text] = [[x, f"{part}: {measure}: {key}"] for x, measure in points.items()]

@@ -1,6 +1,7 @@
 """Engines held to a number of cores. Lavapipe reads that number when it starts: a process for each."""
 
 import os
+import time
 from concurrent.futures import ProcessPoolExecutor
 from functools import cache
 from multiprocessing import get_context
@@ -8,7 +9,7 @@ from multiprocessing import get_context
 import burnish
 from burnish import _core, environments
 
-from .bench import PUBLISHED, ROUGHNESS, camera, frame_measure, pass_times, sphere_scene
+from .bench import CPU, PUBLISHED, ROUGHNESS, camera, frame_measure, pass_times, sphere_scene
 
 
 def core_count() -> int:
@@ -30,9 +31,9 @@ class CoreWorker:
             1, mp_context=get_context("spawn"), initializer=_hold_to, initargs=(cores,)
         )
 
-    def shade_ms(self, device_name: str, lookup: str, pipeline: int = 0) -> float:
+    def shade(self, device_name: str, lookup: str, pipeline: int = 0) -> dict[str, float]:
         """Shade pass of the full 1080p picture of Regular with 20 samples, as published."""
-        return self._pool.submit(_shade_ms, device_name, lookup, pipeline).result()
+        return self._pool.submit(_shade, device_name, lookup, pipeline).result()
 
     def frame(self, device_name: str) -> dict[str, float]:
         """The frame of the same picture and its parts."""
@@ -57,9 +58,11 @@ def _scene() -> burnish.Scene:
     return sphere_scene(burnish.KurtLobe(roughness=ROUGHNESS), environments.spots(1, 256))
 
 
-def _shade_ms(device_name: str, lookup: str, pipeline: int) -> float:
-    report = _core.time_shading(_device(device_name, lookup, pipeline), _scene(), camera(), PUBLISHED, True)
-    return pass_times(report)["shade 0"]
+def _shade(device_name: str, lookup: str, pipeline: int) -> dict[str, float]:
+    device, scene = _device(device_name, lookup, pipeline), _scene()
+    began = time.process_time()
+    report = _core.time_shading(device, scene, camera(), PUBLISHED, True)
+    return {"ms": pass_times(report)["shade 0"], CPU: 1e3 * (time.process_time() - began)}
 
 
 def _frame(device_name: str) -> dict[str, float]:

@@ -16,6 +16,7 @@ from burnish.oracle.cube_map import sample_cube
 @pytest.fixture
 def bench():
     made = Bench.__new__(Bench)
+    made.is_on_cpu = False
     made.repeats, made.figures, made.statements, made.curves = 5, {}, {}, {}
     return made
 
@@ -30,6 +31,13 @@ def test_measures_take_turns_and_the_warm_up_is_not_counted(bench):
     assert order == ["a", "b"] * 4
     assert bench.figures == {"part: a: ms": [3.0, 5.0, 7.0], "part: b: ms": [4.0, 6.0, 8.0]}
     assert times == {"a": {"ms": 5.0}, "b": {"ms": 6.0}}
+
+
+def test_measures_on_a_cpu_get_the_time_of_all_threads_unless_they_know_it(bench):
+    bench.is_on_cpu = True
+    times = bench.alternate("part", {"a": lambda: {"ms": 1.0}, "b": lambda: {"ms": 1.0, "cpu": 7.0}})
+    assert 0 <= times["a"]["cpu"] < 100
+    assert times["b"] == {"ms": 1.0, "cpu": 7.0}
 
 
 def test_the_better_of_the_pipelines_counts(bench):

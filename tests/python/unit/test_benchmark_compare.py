@@ -78,6 +78,7 @@ def test_figures_of_one_run_alone_and_without_time_are_not_compared(rng):
     text = table(before, after, changes, MARGIN)
     assert "2 figures" not in text and "1 figures are in before only" in text
     assert "0 slower, 0 faster, 1 noise" in text
+    assert compare(before, after, MARGIN, "b*") == []
 
 
 def test_the_table_names_other_devices_and_shouts_regressions(rng):
