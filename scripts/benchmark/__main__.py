@@ -56,8 +56,9 @@ def _help() -> str:
             "99 % interval of the ratio of medians (bootstrap over all runs); it exits with 1 if anything is",
             "slower. Machines drift from minute to minute: to judge small changes go back and forth, always",
             "with the same two files, which then hold the runs of all times.",
-            "On a CPU device every measure has a figure `cpu`, the time of all threads: compare these alone",
-            "where the machine has other work.",
+            "On a CPU device every measure has a figure `cpu`, the time of all threads, which other work on the",
+            "machine hardly changes: these are compared if both runs have them. What waits is not seen there;",
+            "--figures '*' compares all.",
         ]
     )
 
@@ -83,7 +84,7 @@ def main() -> int:
         "--compare", type=Path, nargs="+", metavar="JSON", help="BEFORE AFTER, or BEFORE against this run"
     )
     parser.add_argument("--margin", type=float, default=0.05, help="least change (default: .05)")
-    parser.add_argument("--figures", default="*", metavar="PATTERN", help='compare these: "*: cpu"')
+    parser.add_argument("--figures", default="", metavar="PATTERN", help='compare these: "*" for all')
     options = parser.parse_args()
     if unknown := set(options.parts) - set(names):
         parser.error(f"PART: expected any of {', '.join(names)}, got {', '.join(sorted(unknown))}")

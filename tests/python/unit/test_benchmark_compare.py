@@ -81,6 +81,15 @@ def test_figures_of_one_run_alone_and_without_time_are_not_compared(rng):
     assert compare(before, after, MARGIN, "b*") == []
 
 
+def test_times_of_all_threads_are_compared_where_both_runs_have_them(rng):
+    quiet = run_of({"a: ms": runs(rng, 1), "a: cpu": runs(rng, 2)})
+    busy = run_of({"a: ms": runs(rng, 3), "a: cpu": runs(rng, 2)})
+    assert [(c.figure, c.verdict) for c in compare(quiet, busy, MARGIN)] == [("a: cpu", NOISE)]
+    assert [c.verdict for c in compare(quiet, busy, MARGIN, "*")] == [SLOWER, NOISE]
+    on_gpu = run_of({"a: ms": runs(rng, 1)})
+    assert [c.figure for c in compare(quiet, on_gpu, MARGIN)] == ["a: ms"]
+
+
 def test_the_table_names_other_devices_and_shouts_regressions(rng):
     before, after = run_of({"a": runs(rng, 1)}), run_of({"a": runs(rng, 2)}, driver="2")
     text = table(before, after, compare(before, after, MARGIN), MARGIN)
