@@ -56,8 +56,8 @@ def _help() -> str:
             "99 % interval of the ratio of medians (bootstrap over all runs); it exits with 1 if anything is",
             "slower. Machines drift from minute to minute: to judge small changes go back and forth, always",
             "with the same two files, which then hold the runs of all times.",
-            "On a CPU device every measure has a figure `cpu`, the time of all threads, which other work on the",
-            "machine hardly changes: these are compared if both runs have them. What waits is not seen there;",
+            "On a CPU device every measure has a figure `cpu`, the time of all threads, which other work",
+            "hardly changes: these are compared if both runs have them. What waits is not seen there;",
             "--figures '*' compares all.",
         ]
     )

@@ -20,6 +20,7 @@ PUBLISHED = burnish.Regular(samples=20, footprint="published", normalization="pu
 # The driver's compiler places about one pipeline in forty badly, for good: where that matters each is made
 # twice, the better one counts.
 PIPELINES = 2
+SMALL = (64, 64)
 # On a CPU device every measure also has the time of all its threads: other load makes it no longer, but it
 # holds all that the measure does.
 CPU = "cpu"
@@ -124,17 +125,17 @@ def frame_measure(
     view: burnish.Camera | None = None,
     size: tuple[int, int] = SIZE,
     spp: int = 1,
-    is_in_turns: bool = False,
+    first_size: tuple[int, int] | None = None,
 ) -> Measure:
     """Measure a frame brought to numpy: `wall`, and its passes, all shade passes together.
 
-    A scene that takes turns with others is first brought back to the device by a small frame.
+    A scene or size that takes turns with others is first brought back to the device by a frame of `first_size`.
     """
     view = view or camera()
 
     def measure() -> dict[str, float]:
-        if is_in_turns:
-            _core.render(device, scene, view, 64, 64, sampler, 1, "gauss6", None)
+        if first_size:
+            _core.render(device, scene, view, *first_size, sampler, 1, "gauss6", None)
         cpu_began, began = time.process_time(), time.perf_counter()
         data = _core.render(device, scene, view, *size, sampler, spp, "gauss6", None)
         _ = data.color

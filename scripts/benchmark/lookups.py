@@ -12,6 +12,7 @@ from .bench import (
     PUBLISHED,
     ROUGHNESS,
     SIZE,
+    SMALL,
     Bench,
     Measure,
     camera,
@@ -93,7 +94,7 @@ def _matched(bench: Bench, devices: Devices, environment: burnish.Environment) -
     scenes = {"round": scene_of(ROUND, environment), "brushed": scene_of(BRUSHED, environment)}
 
     def frame(scene: burnish.Scene, sampler: object) -> Callable[[int], Measure]:
-        return lambda k: frame_measure(devices["software"][k], scene, sampler, is_in_turns=True)
+        return lambda k: frame_measure(devices["software"][k], scene, sampler, first_size=SMALL)
 
     makers = {"regular 20": frame(scenes["round"], burnish.Regular(20))}
     makers |= {
@@ -119,7 +120,7 @@ def _frames(bench: Bench, devices: Devices, environment: burnish.Environment) ->
     def frame(
         lookup: str, sampler: object, view: burnish.Camera, scene: burnish.Scene = scene
     ) -> Callable[[int], Measure]:
-        return lambda k: frame_measure(devices[lookup][k], scene, sampler, view, is_in_turns=True)
+        return lambda k: frame_measure(devices[lookup][k], scene, sampler, view, first_size=SMALL)
 
     small, matched = covering(0.44), burnish.Matched(5)
     times = bench.best_of(

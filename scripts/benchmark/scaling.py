@@ -5,7 +5,7 @@ from collections.abc import Mapping, Sequence
 import burnish
 from burnish import environments
 
-from .bench import CPU, PUBLISHED, ROUGHNESS, Bench, Measure, camera, frame_measure, sphere_scene
+from .bench import CPU, PUBLISHED, ROUGHNESS, SMALL, Bench, Measure, camera, frame_measure, sphere_scene
 from .workers import CoreWorker, core_counts
 
 HEIGHTS = (480, 720, 1080, 1440, 2160)
@@ -58,7 +58,8 @@ def curve_of_pixels(bench: Bench, is_full: bool) -> None:
     scene = sphere_scene(burnish.KurtLobe(roughness=ROUGHNESS), environments.spots(1, 256))
     sizes = {(h, h * 16 // 9): f"{h}p" for h in (*HEIGHTS, *(FULL_HEIGHTS if is_full else ()))}
     measures = {
-        name: frame_measure(bench.device, scene, PUBLISHED, size=size) for size, name in sizes.items()
+        name: frame_measure(bench.device, scene, PUBLISHED, size=size, first_size=size)
+        for size, name in sizes.items()
     }
     times = bench.alternate("pixels", measures, _few(bench))
     print("\npixels: regular 20 as published, every pixel of 480p to 2160p (--full: 4320p)")
@@ -119,7 +120,7 @@ def _curves_by_sampler(
     for sampler_name, sampler in SAMPLERS.items():
         measures = {
             str(x): frame_measure(
-                bench.device, scene, sampler, view or scene.default_camera(), is_in_turns=True
+                bench.device, scene, sampler, view or scene.default_camera(), first_size=SMALL
             )
             for x, scene in scenes.items()
         }
@@ -133,5 +134,7 @@ def _few(bench: Bench) -> int:
 
 
 def _print_each(text: str, rows: Mapping[int, Mapping[str, float]], keys: Sequence[str]) -> None:
+    """Print nanoseconds for each of what grows: where that is not flat in the end, there is a cliff."""
     for x, row in rows.items():
-        print(f"  {x:<12}" + "".join(f"  {key} {1e6 * row[key] / x:9.4g}" for key in keys) + f"  {text}")
+        line = "".join(f"  {key} {1e6 * row[key] / x:9.4g}" for key in (*keys, CPU) if key in row)
+        print(f"  {x:<12}{line}  {text}")
