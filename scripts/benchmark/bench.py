@@ -129,7 +129,7 @@ def frame_measure(
 ) -> Measure:
     """Measure a frame brought to numpy: `wall`, and its passes, all shade passes together.
 
-    A scene or size that takes turns with others is first brought back to the device by a frame of `first_size`.
+    A scene or size that takes turns with others is first brought back to the device, by a `first_size` frame.
     """
     view = view or camera()
 
