@@ -112,9 +112,10 @@ def measure(options: argparse.Namespace) -> dict:
         else:
             CURVES[name][0](bench, options.full)
         sys.stdout.flush()
-    run = add_runs(earlier, bench.to_dict())
-    if options.json:
-        options.json.write_text(json.dumps(run, indent=1) + "\n")
+        run = add_runs(earlier, bench.to_dict())
+        # After every part, so that what ends early leaves what it has.
+        if options.json:
+            options.json.write_text(json.dumps(run, indent=1) + "\n")
     plot = options.plot or (options.json.with_suffix(".png") if options.scaling and options.json else None)
     if plot and run["curves"]:
         plot_curves(run, plot)

@@ -1,7 +1,9 @@
-"""A picture of the cost curves: time against what grows, log-log, a panel each."""
+"""A picture of the cost curves: time against what grows, log-log, a panel each; thick: of all threads."""
 
 import statistics
 from pathlib import Path
+
+from .bench import CPU
 
 ORDER = ("cores", "pixels", "triangles", "materials", "lobes")
 
@@ -23,7 +25,8 @@ def plot_curves(run: dict, path: Path) -> None:
     for axis, (name, lines) in zip(axes.flat, curves, strict=False):
         for key, points in lines.items():
             curve = [(x, statistics.median(run["figures"][figure_name])) for x, figure_name in points]
-            axis.plot(*zip(*curve, strict=True), marker="o", markersize=3, linewidth=1, label=key)
+            width = 2 if key.endswith(CPU) else 0.8  # what other work on the machine hardly changes
+            axis.plot(*zip(*curve, strict=True), marker="o", markersize=3, linewidth=width, label=key)
         axis.set_xscale("log")
         axis.set_yscale("log")
         if curve[-1][0] < 100:
