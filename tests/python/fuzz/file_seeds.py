@@ -62,7 +62,13 @@ def png(color_type: int, bits: int, interlaced: bool, size: int = 5) -> bytes:
 
 def png_files() -> Iterator[bytes]:
     """Every colour type and depth of PNG, plain and interlaced."""
-    for color_type, depths in {0: (1, 2, 4, 8, 16), 2: (8, 16), 3: (1, 2, 4, 8), 4: (8, 16), 6: (8, 16)}.items():
+    for color_type, depths in {
+        0: (1, 2, 4, 8, 16),
+        2: (8, 16),
+        3: (1, 2, 4, 8),
+        4: (8, 16),
+        6: (8, 16),
+    }.items():
         for bits in depths:
             yield png(color_type, bits, False)
             yield png(color_type, bits, True)
@@ -85,7 +91,11 @@ def hdr_files() -> Iterator[bytes]:
     runs = b"".join(bytes([2, 2, 0, 8]) + bytes([128 + 8, c, 128 + 5, c, 3, 1, 2, 3]) * 2 for c in (1, 2))
     old = (pixels[0, 0].tobytes() + bytes([1, 1, 1, 7])) * 2
     head = b"#?RADIANCE\n"
-    for variables in (b"", b"FORMAT=32-bit_rle_rgbe\n", b"EXPOSURE=2\nCOLORCORR=1 2 3\nFORMAT=32-bit_rle_xyze\n"):
+    for variables in (
+        b"",
+        b"FORMAT=32-bit_rle_rgbe\n",
+        b"EXPOSURE=2\nCOLORCORR=1 2 3\nFORMAT=32-bit_rle_xyze\n",
+    ):
         for body in (pixels.tobytes(), new, runs, old):
             yield head + variables + b"\n-Y 2 +X 8\n" + body
     for axes in (b"+Y 2 +X 8", b"-Y 2 -X 8", b"+X 2 -Y 8", b"-X 2 +Y 8"):
@@ -114,7 +124,9 @@ def exr_files(folder: Path) -> Iterator[bytes]:
         )
     plain = {"compression": OpenEXR.NO_COMPRESSION}
     yield written(plain, {"Y": rng.integers(0, 9, (2, 3)).astype(np.uint32)})
-    yield written(plain, {"left.R": half[..., 0].copy(), "left.G": half[..., 1].copy(), "left.B": half[..., 2].copy()})
+    yield written(
+        plain, {"left.R": half[..., 0].copy(), "left.G": half[..., 1].copy(), "left.B": half[..., 2].copy()}
+    )
     yield written(plain, {"RGBA": rng.random((2, 2, 4)).astype(np.float32)})
     window = np.array([2, 1], np.int32), np.array([9, 3], np.int32)
     yield written(plain | {"displayWindow": window}, {"RGB": half})
@@ -124,7 +136,11 @@ def exr_files(folder: Path) -> Iterator[bytes]:
 
 def _gltf_document(binary: bytes, is_embedded: bool) -> dict:
     """A document that uses what the reader knows: strips, sparse data, pictures, extensions, cameras."""
-    texture = {"index": 0, "texCoord": 0, "extensions": {"KHR_texture_transform": {"offset": [0.5, 0], "texCoord": 1}}}
+    texture = {
+        "index": 0,
+        "texCoord": 0,
+        "extensions": {"KHR_texture_transform": {"offset": [0.5, 0], "texCoord": 1}},
+    }
     views = {"floats": (0, 144), "indices": (144, 12), "picture": (156, len(binary) - 156)}
     document = {
         "asset": {"version": "2.0"},
@@ -164,7 +180,10 @@ def _gltf_document(binary: bytes, is_embedded: bool) -> dict:
                 "alphaMode": "MASK",
                 "extensions": {
                     "KHR_materials_clearcoat": {"clearcoatFactor": 0.5, "clearcoatTexture": {"index": 0}},
-                    "KHR_materials_anisotropy": {"anisotropyStrength": 0.5, "anisotropyTexture": {"index": 0}},
+                    "KHR_materials_anisotropy": {
+                        "anisotropyStrength": 0.5,
+                        "anisotropyTexture": {"index": 0},
+                    },
                     "KHR_materials_specular": {"specularColorFactor": [1, 1, 0.5]},
                     "KHR_materials_ior": {"ior": 1.5},
                     "KHR_materials_emissive_strength": {"emissiveStrength": 5},
@@ -175,7 +194,11 @@ def _gltf_document(binary: bytes, is_embedded: bool) -> dict:
         "meshes": [
             {
                 "primitives": [
-                    {"attributes": {"POSITION": 0, "TEXCOORD_0": 2, "TEXCOORD_1": 2}, "indices": 1, "material": 0},
+                    {
+                        "attributes": {"POSITION": 0, "TEXCOORD_0": 2, "TEXCOORD_1": 2},
+                        "indices": 1,
+                        "material": 0,
+                    },
                     {"attributes": {"POSITION": 4, "NORMAL": 5, "TANGENT": 3, "COLOR_0": 3}, "mode": 5},
                     {"attributes": {"POSITION": 0, "NORMAL": 0}, "mode": 6, "material": 1},
                 ]
@@ -194,7 +217,9 @@ def _gltf_document(binary: bytes, is_embedded: bool) -> dict:
         "scene": 0,
     }
     if is_embedded:
-        document["buffers"][0]["uri"] = "data:application/octet-stream;base64," + base64.b64encode(binary).decode()
+        document["buffers"][0]["uri"] = (
+            "data:application/octet-stream;base64," + base64.b64encode(binary).decode()
+        )
     return document
 
 
@@ -210,7 +235,12 @@ def glb(document: dict, binary: bytes) -> bytes:
     text = json.dumps(document).encode()
     text += b" " * (-len(text) % 4)
     binary += b"\0" * (-len(binary) % 4)
-    chunks = struct.pack("<2I", len(text), 0x4E4F534A) + text + struct.pack("<2I", len(binary), 0x004E4942) + binary
+    chunks = (
+        struct.pack("<2I", len(text), 0x4E4F534A)
+        + text
+        + struct.pack("<2I", len(binary), 0x004E4942)
+        + binary
+    )
     return b"glTF" + struct.pack("<2I", 2, 12 + len(chunks)) + chunks
 
 

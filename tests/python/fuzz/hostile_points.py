@@ -81,7 +81,9 @@ def random_environment(rng: np.random.Generator, largest_face: int = 256) -> bur
     elif kind == 7:
         texels[:] = 10.0 ** rng.normal(0, 1.5, texels.shape)
     rotation = float(rng.uniform(-360, 360)) if rng.random() < 0.5 else None
-    return burnish.Environment.from_faces(faces, exposure=float(rng.choice([0, 0, -20, 10])), rotation=rotation)
+    return burnish.Environment.from_faces(
+        faces, exposure=float(rng.choice([0, 0, -20, 10])), rotation=rotation
+    )
 
 
 def random_sampler(rng: np.random.Generator, block: int):
@@ -127,7 +129,9 @@ def random_points(rng: np.random.Generator, count: int) -> tuple[np.ndarray, np.
     across /= np.linalg.norm(across, axis=1, keepdims=True)
     tilt = 10.0 ** rng.uniform(-9, -1, (count, 1)) * rng.choice([-1.0, 0.0, 1.0], (count, 1))
     kind = rng.integers(0, 5, (count, 1))
-    views = np.select([kind == 0, kind == 1, kind == 2], [across + tilt * normals, normals, -normals], anywhere)
+    views = np.select(
+        [kind == 0, kind == 1, kind == 2], [across + tilt * normals, normals, -normals], anywhere
+    )
     broken = rng.random((count, 1)) < 0.5
     sizes = np.array([0.0, 1e-44, 1e-30, 1e-12, 1e-3, 0.3, 1.0, 1.0, 1.0, 1.0, 1.001, 1e3, 1e18, 3e38])
     along = rng.integers(0, 3, (count, 1))
@@ -135,7 +139,9 @@ def random_points(rng: np.random.Generator, count: int) -> tuple[np.ndarray, np.
     tangents = np.where(broken & (along == 1), normals + 1e-7 * tangents, tangents)
 
     def sized(vectors):
-        return np.ascontiguousarray(np.where(broken, vectors * rng.choice(sizes, (count, 1)), vectors), np.float32)
+        return np.ascontiguousarray(
+            np.where(broken, vectors * rng.choice(sizes, (count, 1)), vectors), np.float32
+        )
 
     return sized(normals), sized(tangents), sized(views)
 
@@ -164,7 +170,9 @@ def shade_hostile(environment, material, sampler, points, filter, device, result
     result.counts.update(found)
     if any(found.values()):
         rows = np.flatnonzero(~(np.isfinite(radiance) & (radiance >= 0)).all(axis=1))
-        first = "" if not len(rows) else f", first normal, tangent, view: {[p[rows[0]].tolist() for p in points]}"
+        first = (
+            "" if not len(rows) else f", first normal, tangent, view: {[p[rows[0]].tolist() for p in points]}"
+        )
         result.complaints.append(f"{where}: {found}, {sampler}, {material}, {environment}, {filter}{first}")
 
 

@@ -13,7 +13,9 @@ from pathlib import Path
 
 import atheris
 
-with atheris.instrument_imports(include=["burnish.images", "burnish.environment_io", "burnish.cube_layout", "PIL"]):
+with atheris.instrument_imports(
+    include=["burnish.images", "burnish.environment_io", "burnish.cube_layout", "PIL"]
+):
     import numpy as np
     from PIL import JpegImagePlugin, PngImagePlugin  # noqa: F401  Pillow would import them late, unseen
 

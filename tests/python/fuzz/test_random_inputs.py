@@ -9,6 +9,7 @@ import warnings
 
 import numpy as np
 import pytest
+import strategies
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
@@ -18,8 +19,6 @@ from burnish.oracle.shading import shade as oracle_shade
 from engine_support import directions as as_directions
 from engine_support import lookup_error, random_points, smooth_environment_faces
 
-import strategies
-
 EXAMPLES = int(os.environ.get("BURNISH_FUZZ_EXAMPLES", "0"))
 # A shader that is compiled for an example takes a second: the samplers below read their samples from buffers.
 fuzzed = settings(
@@ -28,7 +27,11 @@ fuzzed = settings(
     deadline=None,
     database=None,
     print_blob=True,
-    suppress_health_check=[HealthCheck.function_scoped_fixture, HealthCheck.too_slow, HealthCheck.data_too_large],
+    suppress_health_check=[
+        HealthCheck.function_scoped_fixture,
+        HealthCheck.too_slow,
+        HealthCheck.data_too_large,
+    ],
 )
 SAMPLERS = {
     "regular": burnish.Regular(100, normalization="projected"),
@@ -116,7 +119,9 @@ def test_brighter_light_scales_the_radiance(device, texels, stops, material):
     one = burnish.Environment.from_faces(texels)
     other = burnish.Environment.from_faces(texels, exposure=stops)
     got = burnish.shade(other, material, burnish.Prefiltered(), *points, device=device)
-    expected = burnish.shade(one, material, burnish.Prefiltered(), *points, device=device) * np.float32(2.0**stops)
+    expected = burnish.shade(one, material, burnish.Prefiltered(), *points, device=device) * np.float32(
+        2.0**stops
+    )
     np.testing.assert_allclose(got, expected, rtol=1e-5, atol=1e-30)
 
 
