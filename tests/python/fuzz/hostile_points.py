@@ -123,7 +123,7 @@ def _directions(rng: np.random.Generator, count: int) -> np.ndarray:
 
 
 def random_points(rng: np.random.Generator, count: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Make normals, tangents and views: one in two as documented, the others as hostile as finite floats go."""
+    """Make normals, tangents and views: half of them unit, the others as hostile as finite floats go."""
     normals, tangents, anywhere = (_directions(rng, count) for _ in range(3))
     across = np.cross(normals, anywhere) + 1e-12
     across /= np.linalg.norm(across, axis=1, keepdims=True)
@@ -193,7 +193,7 @@ def run_block(block: int, device: burnish.Device, result: Result, count: int = P
 
 
 def fuzz(count: int, seed: int) -> bool:
-    """Shade at least `count` points in blocks from number `seed` on; print what came; say whether all is well."""
+    """Shade `count` points or more in blocks from number `seed` on; print sums; say whether all is well."""
     device = burnish.Device()
     result = Result()
     block = seed

@@ -74,7 +74,7 @@ def faces(draw, largest_exponent: int = 4, **elements):
 
 @st.composite
 def meshes(draw):
-    """Draw triangles over a few shared corners: slivers, doubles, single points; normals of any length or none."""
+    """Draw triangles over shared corners: slivers, doubles, single points; normals of any length or none."""
     corner_count = draw(st.integers(3, 8))
     coordinate = st.floats(-2, 2, width=32)
     positions = draw(hnp.arrays(np.float32, (corner_count, 3), elements=coordinate))

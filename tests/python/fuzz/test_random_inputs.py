@@ -74,8 +74,7 @@ def test_any_point_under_any_map_gives_finite_radiance_that_is_not_negative(
     np.testing.assert_array_equal(radiance, again, "the same bits twice")
 
 
-# Float32 against float64 where light is smooth: the worst of thousands of examples was a third of this. Furnace
-# weights come from the table of albedos, whose steps the largest part of it stands for.
+# Share of the brightest point: float32 against float64, and steps of the table of albedos, in smooth light.
 SMOOTH_LIMIT = 3e-3
 
 
