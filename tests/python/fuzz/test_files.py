@@ -3,6 +3,9 @@
 The search that is guided by coverage, and long, is scripts/fuzz.
 """
 
+import base64
+import json
+import os
 import random
 import subprocess
 import sys
@@ -103,6 +106,42 @@ def test_a_message_that_quotes_bytes_is_not_empty(name, tmp_path):
         burnish.Scene.from_file(path)
     assert str(caught.value).startswith(str(path))
     str(caught.value).encode()  # and it can be printed
+
+
+def jpeg_without_tables() -> bytes:
+    """A grey baseline JPEG of 8 x 8 whose scan names Huffman tables that it does not define."""
+
+    def segment(code, content):
+        return bytes([0xFF, code]) + (len(content) + 2).to_bytes(2, "big") + content
+
+    quantization = segment(0xDB, b"\0" + bytes(range(1, 65)))
+    frame = segment(0xC0, bytes([8, 0, 8, 0, 8, 1, 1, 0x11, 0]))
+    scan = segment(0xDA, bytes([1, 1, 0x00, 0, 63, 0])) + bytes(range(1, 65))
+    return b"\xff\xd8" + quantization + frame + scan + b"\xff\xd9"
+
+
+def test_what_a_picture_becomes_does_not_depend_on_old_memory(tmp_path):
+    uri = "data:image/jpeg;base64," + base64.b64encode(jpeg_without_tables()).decode()
+    document = {
+        "asset": {"version": "2.0"},
+        "images": [{"uri": uri}],
+        "textures": [{"source": 0}],
+        "materials": [{"emissiveTexture": {"index": 0}}],
+    }
+    path = tmp_path / "scene.gltf"
+    path.write_text(json.dumps(document))
+    program = "import burnish, sys; scene = burnish.Scene.from_file(sys.argv[1]); print(scene.warnings)"
+    said = {
+        subprocess.run(
+            [sys.executable, "-c", program, str(path)],
+            capture_output=True,
+            text=True,
+            check=True,
+            env=os.environ | {"MALLOC_PERTURB_": filling},  # new memory holds its complement
+        ).stdout
+        for filling in ("254", "17", "128")
+    }
+    assert len(said) == 1
 
 
 def test_a_picture_of_another_kind_is_named(tmp_path):
