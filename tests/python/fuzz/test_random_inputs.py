@@ -78,7 +78,7 @@ def test_any_point_under_any_map_gives_finite_radiance_that_is_not_negative(
 SMOOTH_LIMIT = 3e-3
 
 
-@pytest.mark.parametrize("name", ["regular", "importance", "matched"])
+@pytest.mark.parametrize("name", ["regular", "importance"])
 @fuzzed
 @given(material=strategies.materials(least_roughness=0.01), seed=st.integers(0, 2**31 - 1))
 def test_shade_equals_the_oracle(device, smooth16, name, material, seed):
