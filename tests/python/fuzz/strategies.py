@@ -74,7 +74,7 @@ def faces(draw, largest_exponent: int = 4, **elements):
 
 @st.composite
 def meshes(draw):
-    """Draw triangles over shared corners: slivers, doubles, single points; normals of any length or none."""
+    """Draw triangles over shared corners: slivers, doubles, single points; normals to any side or none."""
     corner_count = draw(st.integers(3, 8))
     coordinate = st.floats(-2, 2, width=32)
     positions = draw(hnp.arrays(np.float32, (corner_count, 3), elements=coordinate))
@@ -82,5 +82,5 @@ def meshes(draw):
     indices = draw(hnp.arrays(np.uint32, st.tuples(st.integers(1, 6), st.just(3)), elements=corner))
     normals = None
     if draw(st.booleans()):
-        normals = draw(hnp.arrays(np.float32, (corner_count, 3), elements=coordinate))
+        normals = np.ascontiguousarray(draw(directions(corner_count)), np.float32)
     return burnish.Mesh(positions, indices, normals=normals)
