@@ -187,7 +187,7 @@ def run_block(block: int, device: burnish.Device, result: Result, count: int = P
     """Shade the points of one block: one sampler, a few materials, each in a few environments."""
     rng = np.random.default_rng(block)
     sampler = random_sampler(rng, block)
-    material_count, environment_count = (1, 2) if needs_pipeline(sampler) else (8, 4)
+    material_count, environment_count = (1, 2) if needs_pipeline(sampler) else (3, 3)
     materials = [random_material(rng) for _ in range(material_count)]
     is_quadrature = getattr(sampler, "method", "") == "quadrature"
     largest_face = LARGEST_QUADRATURE_FACE if is_quadrature else 256
