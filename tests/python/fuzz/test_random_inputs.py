@@ -22,7 +22,7 @@ from engine_support import lookup_error, random_points, smooth_environment_faces
 EXAMPLES = int(os.environ.get("BURNISH_FUZZ_EXAMPLES", "0"))
 # A shader that is compiled for an example takes a second: the samplers below read their samples from buffers.
 fuzzed = settings(
-    max_examples=EXAMPLES or 12,
+    max_examples=EXAMPLES or 6,
     derandomize=not EXAMPLES,
     deadline=None,
     database=None,
