@@ -6,6 +6,7 @@
 
 #include <array>
 #include <atomic>
+#include <chrono>
 #include <thread>
 
 namespace burnish::vulkan {
@@ -157,14 +158,16 @@ TEST(Passes, TimesAreListedInOrderAndGrowWithTheWork) {
         commands.end_pass();
     }
     EXPECT_THROW(commands.pass_times(), std::logic_error);
+    const auto began = std::chrono::steady_clock::now();
     commands.submit();
+    const std::chrono::duration<double, std::milli> wall = std::chrono::steady_clock::now() - began;
     ASSERT_EQ(commands.pass_times().size(), static_cast<std::size_t>(pass_count));
     if (!device->features().timestamps) GTEST_SKIP() << "the device has no timestamps";
     for (int i = 0; i < pass_count; ++i) {
         const PassTime& pass = commands.pass_times()[static_cast<std::size_t>(i)];
         EXPECT_EQ(pass.name, message("pass ", i));
         EXPECT_GE(pass.milliseconds, 0);
-        EXPECT_LT(pass.milliseconds, 60e3);
+        EXPECT_LE(pass.milliseconds, 1.01 * wall.count()); // two clocks: milliseconds, not another unit
     }
     EXPECT_GT(commands.pass_times()[20].milliseconds, 0);
     EXPECT_GT(commands.pass_times()[40].milliseconds, 3 * commands.pass_times()[20].milliseconds);

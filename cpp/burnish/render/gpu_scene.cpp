@@ -77,7 +77,8 @@ uint64_t mix(uint64_t hash, const void* data, size_t bytes) {
         hash ^= hash >> 32;
     }
     uint64_t last = 0;
-    std::memcpy(&last, next, bytes);
+    if (bytes > 0)
+        std::memcpy(&last, next, bytes); // of no bytes the address may be null, which memcpy forbids
     return (hash ^ last) * 0x9fb21c651e98df25ull;
 }
 

@@ -64,7 +64,9 @@ bool has_oversized_huffman_table(const std::vector<uint8_t>& jpeg) {
 } // namespace
 
 void* bounded_malloc(size_t size) {
-    return size <= largest_block ? std::malloc(size) : nullptr;
+    // Zeroed: stb_image up to 2.27 decodes by Huffman tables that a JPEG names and does not define, left as
+    // the memory was.
+    return size <= largest_block ? std::calloc(1, size) : nullptr;
 }
 void* bounded_realloc(void* pointer, size_t size) {
     return size <= largest_block ? std::realloc(pointer, size) : nullptr;

@@ -83,7 +83,16 @@ def test_text_files_end_in_one_newline_and_hold_no_tabs(texts):
 
 
 @pytest.mark.parametrize(
-    "script", ["scripts/setup", "scripts/demo", "scripts/test", "scripts/lint", ".ci/run"]
+    "script",
+    [
+        "scripts/setup",
+        "scripts/demo",
+        "scripts/test",
+        "scripts/lint",
+        "scripts/fuzz",
+        "scripts/sanitize",
+        ".ci/run",
+    ],
 )
 def test_scripts_are_executable_and_parse(script):
     path = REPOSITORY / script

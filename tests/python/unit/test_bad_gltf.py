@@ -89,6 +89,36 @@ def test_bad_picture_is_read_or_named(path, tmp_path):
     assert result["images"] == 1 or any(path.name in sentence for sentence in result["warnings"])
 
 
+BOTH_DOORS = """
+import resource, sys
+from pathlib import Path
+resource.setrlimit(resource.RLIMIT_AS, 2 * (int(sys.argv[2]),))
+import burnish
+from burnish.images import read_image
+for path in sorted(p for p in Path(sys.argv[1]).rglob("*") if p.is_file()):
+    for read in (burnish.Scene.from_file, read_image):
+        try:
+            read(path)
+        except burnish.FileError as error:
+            assert str(error).startswith(str(path)), error
+        print(path, flush=True)
+"""
+
+
+def test_every_file_passes_through_both_doors():
+    """Scenes, pictures and what lies beside them, each read as a scene and as a picture."""
+    done = subprocess.run(
+        [sys.executable, "-c", BOTH_DOORS, str(BAD_INPUT), str(MAX_ADDRESS_BYTES)],
+        capture_output=True,
+        text=True,
+        timeout=10 * SECONDS,
+        check=False,
+    )
+    read = done.stdout.splitlines()
+    assert done.returncode == 0, f"after {read[-1:]}: {done.stderr[-2000:]}"
+    assert len(read) == 2 * sum(path.is_file() for path in BAD_INPUT.rglob("*"))
+
+
 def test_bad_input_is_found():
     assert len(SCENES) > 120
     assert len(PICTURES) >= 10
