@@ -54,14 +54,18 @@ def bench_shading(bench: Bench) -> None:
 
 
 def bench_pyramids(bench: Bench) -> None:
-    print("\npyramid, RGBA16F, all levels, ms (ratio to box)")
-    print("  faces " + "".join(f"{name:>20}" for name in FILTERS))
+    print("\npyramid, RGBA16F, all levels, ms (ratio to box); blit: the device's own, not seamless")
+    print("  faces " + "".join(f"{name:>20}" for name in (*FILTERS, "blit")))
     for size in PYRAMID_SIZES:
         environment = environments.uniform(1.0, size)
 
         def build(name: str, environment: burnish.Environment = environment) -> Measure:
             return lambda: {"ms": dict(_core.pyramid_times(bench.device, environment, name))["pyramid"]}
 
-        times = bench.alternate(f"pyramid {size}", {name: build(name) for name in FILTERS})
+        def blit(environment: burnish.Environment = environment) -> dict[str, float]:
+            return {"ms": _core.time_blits(bench.device, environment)}
+
+        measures = {name: build(name) for name in FILTERS} | {"blit": blit}
+        times = bench.alternate(f"pyramid {size}", measures)
         box = times["box"]["ms"]
         print(f"  {size:5} " + "".join(f"{t['ms']:12.2f} ({t['ms'] / box:4.2f})" for t in times.values()))
