@@ -9,6 +9,7 @@
 #include "lib/cube_map.glsl"
 #include "lib/footprint.glsl"
 #include "lib/frame.glsl"
+#include "lookup/map_lookup.glsl"
 #include "shared/prefilter.h"
 
 layout(local_size_x = 64) in;
@@ -16,34 +17,33 @@ layout(local_size_x = 64) in;
 layout(constant_id = SPEC_PREFILTER_IS_SPHERICAL) const bool IS_SPHERICAL = false;
 
 layout(push_constant) uniform Push { PrefilterRecord record; };
-layout(binding = BINDING_PREFILTER_PYRAMID) uniform samplerCubeArray pyramid;
 // See build_prefilter_table and build_spherical_table in cpp/burnish/sampling/prefilter_table.h.
 layout(std430, binding = BINDING_PREFILTER_SAMPLES) readonly buffer Samples { vec4 samples[]; };
 // Half RGBA.
 layout(std430, binding = BINDING_PREFILTER_TEXELS) writeonly buffer Texels { uvec2 texels[]; };
 
 struct Lookup {
-    vec3 direction;
-    float level;
+    MapAim aim;
     float weight;
 };
 
 // In slope form, as in shade/lobe.glsl: with g = n + sx t + sy b and c = 1/|g|^2, i = 2 c g - n and cos_i = 2 c - 1.
 Lookup place_lookup(mat3 frame, vec4 entry) {
     float c = 1.0 / (1.0 + dot(entry.xy, entry.xy));
+    CubePlace place = place_on_cube((2.0 * c - 1.0) * frame[2] + (2.0 * c) * (entry.x * frame[0] + entry.y * frame[1]));
+    float level;
     Lookup lookup;
-    lookup.direction = (2.0 * c - 1.0) * frame[2] + (2.0 * c) * (entry.x * frame[0] + entry.y * frame[1]);
-    vec3 a = abs(lookup.direction);
-    float largest = max(max(a.x, a.y), a.z);
     if (IS_SPHERICAL) {
-        // A lookup of width sigma in (u, v) is r^-2 sigma by r^-1 sigma wide on the sphere: 2/(r^-4 + r^-2), r = 1/largest.
-        float x = largest * largest;
-        lookup.level = mip_level(2.0 * entry.w / (x * (x + 1.0)));
+        // A lookup of width sigma in (u, v) is r^-2 sigma by r^-1 sigma wide on the sphere: 2/(r^-4 + r^-2), r the inverse of
+        // the direction's largest component.
+        float x = 1.0 / (place.inverse_largest * place.inverse_largest);
+        level = mip_level(2.0 * entry.w / (x * (x + 1.0)));
         lookup.weight = entry.z;
     } else {
-        lookup.level = mip_level(texels_exact(entry.w, 1.0, 1.0 / largest));
+        level = mip_level(texels_exact(entry.w, 1.0, place.inverse_largest));
         lookup.weight = entry.z * max(2.0 * c - 1.0, 0.0);
     }
+    lookup.aim = aim_at_map(place, float(record.cube), level);
     return lookup;
 }
 
@@ -62,7 +62,7 @@ void main() {
         Lookup lookups[PREFILTER_PHASE];
         [[unroll]] for (uint j = 0u; j < PREFILTER_PHASE; ++j) lookups[j] = place_lookup(frame, samples[k + j]);
         [[unroll]] for (uint j = 0u; j < PREFILTER_PHASE; ++j) {
-            sum += lookups[j].weight * textureLod(pyramid, vec4(lookups[j].direction, float(record.cube)), lookups[j].level).rgb;
+            sum += lookups[j].weight * load_map(lookups[j].aim);
             weight += lookups[j].weight;
         }
     }

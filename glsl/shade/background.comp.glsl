@@ -3,7 +3,7 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
 
-#include "shade/map_lookup.glsl"
+#include "lookup/map_lookup.glsl"
 #include "shade/surface_point.glsl"
 
 void main() {

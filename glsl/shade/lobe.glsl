@@ -8,7 +8,7 @@
 #include "lib/kurt_lobe.glsl"
 #include "shade/albedo.glsl"
 #include "shade/bindings.glsl"
-#include "shade/map_lookup.glsl"
+#include "lookup/map_lookup.glsl"
 
 layout(constant_id = SPEC_TABLE) const uint TABLE = TABLE_BUFFER;
 layout(constant_id = SPEC_FOOTPRINT) const uint FOOTPRINT = FOOTPRINT_EXACT;

@@ -4,7 +4,7 @@
 #extension GL_GOOGLE_include_directive : require
 
 #include "lib/frame.glsl"
-#include "shade/map_lookup.glsl"
+#include "lookup/map_lookup.glsl"
 #include "shared/records.h"
 
 layout(local_size_x = TILE_SIZE, local_size_y = TILE_SIZE) in;

@@ -11,7 +11,7 @@
 #include "lib/random.glsl"
 #include "lib/spherical_harmonics.glsl"
 #include "shade/albedo.glsl"
-#include "shade/map_lookup.glsl"
+#include "lookup/map_lookup.glsl"
 #include "shade/surface_point.glsl"
 
 layout(constant_id = SPEC_IS_QUADRATURE) const bool IS_QUADRATURE = false;

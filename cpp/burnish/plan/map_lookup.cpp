@@ -28,6 +28,10 @@ uint64_t cube_pair_count(uint32_t face_size) {
     return count;
 }
 
+MapLookup LookupChoice::of(uint32_t face_size, uint64_t cubes) const {
+    return cube_pair_count(face_size) * cubes <= most_pairs ? wanted : MapLookup::sampler;
+}
+
 LookupChoice choose_lookup(bool is_software, std::optional<MapLookup> asked, uint64_t most_pairs) {
     if (asked) return {*asked, "asked for", most_pairs};
     if (!is_software) return {MapLookup::sampler, "the device has a sampler in hardware", most_pairs};

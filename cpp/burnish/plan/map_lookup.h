@@ -1,4 +1,4 @@
-// Which of the two implementations of a lookup (glsl/shade/map_lookup.glsl) reads the maps.
+// Which of the two implementations of a lookup (glsl/lookup/map_lookup.glsl) reads the maps.
 #pragma once
 
 #include <cstdint>
@@ -25,6 +25,9 @@ struct LookupChoice {
     MapLookup wanted = MapLookup::sampler;
     std::string reason = "the device has a sampler in hardware";
     uint64_t most_pairs = 0; ///< that one of its buffers can hold
+
+    /// For an array of cubes: the wanted one where its buffers can hold them.
+    MapLookup of(uint32_t face_size, uint64_t cubes) const;
 };
 
 /// `asked`: by the user, none for the device's best.

@@ -67,11 +67,8 @@ void add_map_sets(Plan& plan) {
         else
             found->environments.push_back(k);
     }
-    const LookupChoice& choice = plan.settings.lookup;
     for (MapSet& set : plan.map_sets)
-        if (choice.wanted == MapLookup::software &&
-            cube_pair_count(set.face_size) * set.environments.size() <= choice.most_pairs)
-            set.lookup = MapLookup::software;
+        set.lookup = plan.settings.lookup.of(set.face_size, set.environments.size());
 }
 
 uint32_t map_set_of(const Plan& plan, uint32_t environment) {

@@ -13,8 +13,9 @@ std::vector<double> Renderer::time_lookups(const std::shared_ptr<const Environme
     const auto lock = enter();
     constexpr uint32_t width = 1920, height = 1080;
     const SampleTable table = build_sample_table(sampler, glm::vec2(roughness), environment->face_size());
-    EnvironmentMaps maps(device_, pyramid_, std::span(&environment, 1), PyramidFilter::gauss6);
-    if (lookup_.wanted == MapLookup::software) maps.pack(texel_pairs());
+    EnvironmentMaps maps(device_, pyramid_, std::span(&environment, 1), PyramidFilter::gauss6, nullptr,
+                         PrefilterKernel::lobe,
+                         lookup_.wanted == MapLookup::software ? &texel_pairs() : nullptr);
     const vulkan::Buffer radiance(device_, width * height * sizeof(glm::vec4),
                                   VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
     const vulkan::Sampler cube_sampler(device_, {});

@@ -35,7 +35,7 @@ uint32_t common_face_size(EnvironmentSpan environments, uint32_t most_layers) {
 
 EnvironmentMaps::EnvironmentMaps(std::shared_ptr<const vulkan::Device> device, Pyramid& pyramid,
                                  EnvironmentSpan environments, std::optional<PyramidFilter> filter,
-                                 Prefilter* prefilter, PrefilterKernel kernel) {
+                                 Prefilter* prefilter, PrefilterKernel kernel, TexelPairs* packer) {
     const uint32_t face_size = common_face_size(environments, device->limits().maxImageArrayLayers);
     if (prefilter && !filter)
         throw std::invalid_argument("filter: expected one, from whose pyramid to prefilter, got none");
@@ -70,26 +70,31 @@ EnvironmentMaps::EnvironmentMaps(std::shared_ptr<const vulkan::Device> device, P
     } else {
         commands.transition(image_, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
     }
+    if (packer) {
+        commands.begin_pass("pack");
+        pairs_ = packer->record(commands, image_);
+        commands.end_pass();
+    }
     vulkan::Image prefiltered;
     if (prefilter) {
         prefiltered = vulkan::Image(device, settings);
         commands.begin_pass("prefilter");
-        prefilter->record(commands, image_, prefiltered, kernel, *filter);
+        prefilter->record(commands, image_, pairs_.view, prefiltered, kernel, *filter);
         commands.end_pass();
     }
     commands.submit();
-    if (prefilter) image_ = std::move(prefiltered);
     pass_times_ = {{"upload", upload_time.count()}};
     pass_times_.insert(pass_times_.end(), commands.pass_times().begin(), commands.pass_times().end());
-}
+    if (!prefilter) return;
 
-void EnvironmentMaps::pack(TexelPairs& packer) {
-    vulkan::Commands commands(image_.device());
-    commands.begin_pass("pack");
-    pairs_ = packer.record(commands, image_);
-    commands.end_pass();
-    commands.submit();
-    pass_times_.insert(pass_times_.end(), commands.pass_times().begin(), commands.pass_times().end());
+    image_ = std::move(prefiltered);
+    if (!packer) return;
+    vulkan::Commands after(device);
+    after.begin_pass("pack");
+    pairs_ = packer->record(after, image_);
+    after.end_pass();
+    after.submit();
+    pass_times_.insert(pass_times_.end(), after.pass_times().begin(), after.pass_times().end());
 }
 
 std::vector<std::vector<float>> EnvironmentMaps::read_levels(uint32_t cube) {

@@ -17,16 +17,15 @@ class EnvironmentMaps {
 public:
     /// Uploads the environments, all of one face size, as RGBA16F rounded to nearest even, and makes their
     /// pyramids; without a filter level 0 alone. With `prefilter` the levels are prefiltered from the
-    /// pyramids instead. Rotation and exposure stay with the environments: they are applied when a map is
-    /// looked up. Throws std::invalid_argument if there is none, if one is null or of another size, if
+    /// pyramids instead. With `packer` the maps are packed for the software lookup too, and what is
+    /// prefiltered is read by it. Rotation and exposure stay with the environments: they are applied when a
+    /// map is looked up. Throws std::invalid_argument if there is none, if one is null or of another size, if
     /// prefiltered maps are to come without a filter, or if the device's images have too few layers.
     EnvironmentMaps(std::shared_ptr<const vulkan::Device> device, Pyramid& pyramid,
                     std::span<const std::shared_ptr<const Environment>> environments,
                     std::optional<PyramidFilter> filter, Prefilter* prefilter = nullptr,
-                    PrefilterKernel kernel = PrefilterKernel::lobe);
+                    PrefilterKernel kernel = PrefilterKernel::lobe, TexelPairs* packer = nullptr);
 
-    /// Packs the maps for the software lookup too.
-    void pack(TexelPairs& packer);
     /// The packed maps; a null handle where they were not packed.
     const vulkan::TexelView& pairs() const { return pairs_.view; }
 

@@ -1,7 +1,10 @@
 #include "burnish/render/prefilter.h"
 
+#include <bit>
+
 #include "burnish/sampling/prefilter_table.h"
 #include "burnish/vulkan/transfer.h"
+#include "shared/constants.h"
 #include "shared/prefilter.h"
 
 #include "spirv/pyramid_prefilter_comp.h"
@@ -23,14 +26,21 @@ VkImageCopy finest_level(const vulkan::ImageSettings& settings) {
 
 Prefilter::Prefilter(std::shared_ptr<const vulkan::Device> device)
     : device_(std::move(device)), shader_(device_, "pyramid/prefilter.comp", pyramid_prefilter_comp_spv),
-      sampler_(device_, {}) {}
+      sampler_(device_, {}) {
+    no_pairs_.buffer = vulkan::Buffer(device_, 16, VK_BUFFER_USAGE_STORAGE_TEXEL_BUFFER_BIT);
+    no_pairs_.view = vulkan::texel_view(no_pairs_.buffer, VK_FORMAT_R32G32B32A32_UINT);
+}
 
-const vulkan::ComputePipeline& Prefilter::pipeline(PrefilterKernel kernel) {
-    const auto found = pipelines_.find(kernel);
+const vulkan::ComputePipeline& Prefilter::pipeline(PrefilterKernel kernel, uint32_t packed_size) {
+    const auto key = std::pair(kernel, packed_size);
+    const auto found = pipelines_.find(key);
     if (found != pipelines_.end()) return found->second;
-    const auto constants = vulkan::SpecializationConstants{}.set(shared::SPEC_PREFILTER_IS_SPHERICAL,
-                                                                 kernel == PrefilterKernel::spherical);
-    return pipelines_.emplace(kernel, vulkan::ComputePipeline(device_, shader_, constants)).first->second;
+    auto constants = vulkan::SpecializationConstants{}.set(shared::SPEC_PREFILTER_IS_SPHERICAL,
+                                                           kernel == PrefilterKernel::spherical);
+    if (packed_size > 0)
+        constants.set(shared::SPEC_LOOKUP, shared::LOOKUP_SOFTWARE)
+            .set(shared::SPEC_LAST_LEVEL, std::countr_zero(packed_size));
+    return pipelines_.emplace(key, vulkan::ComputePipeline(device_, shader_, constants)).first->second;
 }
 
 const Prefilter::Scratch& Prefilter::scratch(const Key& key) {
@@ -57,8 +67,8 @@ const Prefilter::Scratch& Prefilter::scratch(const Key& key) {
     return scratches_.emplace(key, std::move(scratch)).first->second;
 }
 
-void Prefilter::record(vulkan::Commands& commands, vulkan::Image& pyramid, vulkan::Image& prefiltered,
-                       PrefilterKernel kernel, PyramidFilter filter) {
+void Prefilter::record(vulkan::Commands& commands, vulkan::Image& pyramid, const vulkan::TexelView& pairs,
+                       vulkan::Image& prefiltered, PrefilterKernel kernel, PyramidFilter filter) {
     const vulkan::ImageSettings& settings = pyramid.settings();
     commands.transition(pyramid, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL);
     commands.transition(prefiltered, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL);
@@ -67,13 +77,13 @@ void Prefilter::record(vulkan::Commands& commands, vulkan::Image& pyramid, vulka
                    prefiltered.layout(), 1, &finest);
     commands.transition(pyramid, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
 
-    const vulkan::ComputePipeline& used = pipeline(kernel);
+    const vulkan::ComputePipeline& used = pipeline(kernel, pairs.get() ? settings.width : 0);
     for (uint32_t cube = 0; cube < settings.layers / 6 && settings.levels > 1; ++cube) {
         const Scratch& room = scratch({settings.width, kernel, filter});
         if (cube == 0) {
             set_ = vulkan::DescriptorSet(used);
-            set_.bind(shared::BINDING_PREFILTER_PYRAMID, pyramid.view_as(VK_IMAGE_VIEW_TYPE_CUBE_ARRAY),
-                      sampler_)
+            set_.bind(shared::BINDING_MAPS, pyramid.view_as(VK_IMAGE_VIEW_TYPE_CUBE_ARRAY), sampler_)
+                .bind_texel_buffer(shared::BINDING_MAP_PAIRS, pairs.get() ? pairs : no_pairs_.view)
                 .bind(shared::BINDING_PREFILTER_SAMPLES, room.samples)
                 .bind(shared::BINDING_PREFILTER_TEXELS, room.texels);
         }

@@ -2,6 +2,7 @@
 // under a Gaussian that is round on the sphere.
 #pragma once
 
+#include "burnish/render/texel_pairs.h"
 #include "burnish/sampling/pyramid_filter.h"
 #include "burnish/vulkan/commands.h"
 #include "burnish/vulkan/device.h"
@@ -25,9 +26,10 @@ public:
     /// arrays of RGBA16F with full levels and of one size; `pyramid` has all of them written, `prefiltered`
     /// gets all of them. Both are in SHADER_READ_ONLY_OPTIMAL afterwards. This object must live, and record
     /// nothing else, until the commands are done.
-    /// `filter` made the pyramid.
-    void record(vulkan::Commands& commands, vulkan::Image& pyramid, vulkan::Image& prefiltered,
-                PrefilterKernel kernel, PyramidFilter filter);
+    /// `filter` made the pyramid. `pairs`: the pyramid packed, which is then read by the software lookup,
+    /// else null.
+    void record(vulkan::Commands& commands, vulkan::Image& pyramid, const vulkan::TexelView& pairs,
+                vulkan::Image& prefiltered, PrefilterKernel kernel, PyramidFilter filter);
 
 private:
     struct Level {
@@ -45,12 +47,14 @@ private:
     using Key = std::tuple<uint32_t, PrefilterKernel, PyramidFilter>; ///< face size first
 
     const Scratch& scratch(const Key& key);
-    const vulkan::ComputePipeline& pipeline(PrefilterKernel kernel);
+    /// `packed_size`: of the faces, where the software lookup reads them; 0: the device's sampler does.
+    const vulkan::ComputePipeline& pipeline(PrefilterKernel kernel, uint32_t packed_size);
 
     std::shared_ptr<const vulkan::Device> device_;
     vulkan::Shader shader_;
-    std::map<PrefilterKernel, vulkan::ComputePipeline> pipelines_;
+    std::map<std::pair<PrefilterKernel, uint32_t>, vulkan::ComputePipeline> pipelines_;
     vulkan::Sampler sampler_;
+    PairBuffer no_pairs_; // for where nothing is packed: an unwritten descriptor is an error even if unread
     vulkan::DescriptorSet set_; // of the commands recorded last
     std::map<Key, Scratch> scratches_;
 };

@@ -47,11 +47,10 @@ std::vector<std::shared_ptr<EnvironmentMaps>> Renderer::prepare_maps(const Plan&
             continue;
         }
         const auto maps = needing_memory_for(describe_maps(environments.size(), *environments.front()), [&] {
-            auto made = std::make_shared<EnvironmentMaps>(device_, pyramid_, environments, filter,
-                                                          kernel ? &prefilter() : nullptr,
-                                                          kernel.value_or(PrefilterKernel::lobe));
-            if (set.lookup == MapLookup::software) made->pack(texel_pairs());
-            return made;
+            return std::make_shared<EnvironmentMaps>(
+                device_, pyramid_, environments, filter, kernel ? &prefilter() : nullptr,
+                kernel.value_or(PrefilterKernel::lobe),
+                set.lookup == MapLookup::software ? &texel_pairs() : nullptr);
         });
         add_pass_times(times, maps->pass_times());
         maps_.push_back({{environments.begin(), environments.end()}, filter, kernel, maps});
@@ -87,7 +86,9 @@ std::vector<std::vector<float>> Renderer::prefiltered(PrefilterKernel kernel,
                                                       std::vector<vulkan::PassTime>* times) {
     const auto lock = enter();
     return within_memory(describe_maps(1, *environment), [&] {
-        EnvironmentMaps maps(device_, pyramid_, std::span(&environment, 1), filter, &prefilter(), kernel);
+        const bool is_packed = lookup_.of(environment->face_size(), 1) == MapLookup::software;
+        EnvironmentMaps maps(device_, pyramid_, std::span(&environment, 1), filter, &prefilter(), kernel,
+                             is_packed ? &texel_pairs() : nullptr);
         if (times) *times = maps.pass_times();
         return maps.read_levels(0);
     });

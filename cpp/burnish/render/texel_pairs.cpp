@@ -3,7 +3,7 @@
 #include "burnish/plan/map_lookup.h"
 #include "shared/texel_pairs.h"
 
-#include "spirv/pyramid_pack_pairs_comp.h"
+#include "spirv/lookup_pack_pairs_comp.h"
 
 namespace burnish {
 
@@ -14,7 +14,7 @@ constexpr uint32_t PAIR_BYTES = 16, TEXEL_BYTES = 8;
 } // namespace
 
 TexelPairs::TexelPairs(std::shared_ptr<const vulkan::Device> device) : device_(std::move(device)) {
-    const vulkan::Shader shader(device_, "pyramid/pack_pairs.comp", pyramid_pack_pairs_comp_spv);
+    const vulkan::Shader shader(device_, "lookup/pack_pairs.comp", lookup_pack_pairs_comp_spv);
     inside_ = vulkan::ComputePipeline(device_, shader);
     border_ = vulkan::ComputePipeline(device_, shader,
                                       vulkan::SpecializationConstants{}.set(shared::SPEC_PACK_BORDER, true));

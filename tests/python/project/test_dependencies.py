@@ -47,8 +47,9 @@ def cpp_violations(area, text):
 
 
 def glsl_violations(area, text):
-    """Entry points may include their own folder, lib and shared; lib may include lib and shared."""
-    allowed = {"shared": {"shared"}, "lib": {"lib", "shared"}}.get(area, {area, "lib", "shared"})
+    """Entry points may include their own folder, lookup, lib and shared; lib may include lib and shared."""
+    own = {"shared": {"shared"}, "lib": {"lib", "shared"}}
+    allowed = own.get(area, {area, "lookup", "lib", "shared"})
     for _, name in INCLUDE.findall(re.sub(r"#ifdef __cplusplus.*?#(else|endif)", "", text, flags=re.DOTALL)):
         if name.split("/")[0] not in allowed:
             yield f'{area} includes "{name}"'
