@@ -3,6 +3,7 @@
 import argparse
 import json
 import os
+import re
 import shutil
 import subprocess
 import sys
@@ -14,7 +15,7 @@ from mutations import MUTATIONS, Mutation
 
 REPOSITORY = Path(__file__).resolve().parents[1]
 
-# Prints one JSON object: rows beyond their bounds, as "case, sampler".
+# Prints the rows beyond their bounds, "case, sampler", as JSON.
 MEASURE = """
 import json, sys
 import burnish
@@ -24,61 +25,45 @@ cases, samplers = json.loads(sys.argv[1])
 bench = hardcases.Bench(burnish.Device())
 wanted = [hardcases.find_case(name) for name in cases]
 done = [hardcases.measure(c, s, bench) for c, s in hardcases.rows(wanted) if not samplers or s in samplers]
-print(json.dumps({"rows": len(done), "failed": [f"{m.case}, {m.sampler}" for m in done if not m.passed]}))
+print(json.dumps([f"{m.case}, {m.sampler}" if m.sampler else m.case for m in done if not m.passed]))
 """
 
 INTRODUCTION = """# Mutations
 
-Each stable form of a shader is replaced by the naive formula, in a copy of the tree, and hard cases are
-measured with it: a case that cannot fail proves nothing. Made by `scripts/mutate -o docs/mutations.md`.
+Each stable form of a shader is replaced by the naive formula, in a copy, and hard cases are measured
+with it: a case that cannot fail proves nothing. Made by `scripts/mutate -o docs/mutations.md`.
 
 | naive formula | in | caught by |
 |---|---|---|
 """
 
 
-def copy_tree(target: Path) -> None:
-    """Copy what git tracks or would track."""
-    listed = subprocess.run(
-        ["git", "ls-files", "--cached", "--others", "--exclude-standard"],
-        cwd=REPOSITORY,
-        check=True,
-        capture_output=True,
-        text=True,
-    ).stdout.splitlines()
-    for name in listed:
-        if (REPOSITORY / name).is_file():
-            (target / name).parent.mkdir(parents=True, exist_ok=True)
-            shutil.copy2(REPOSITORY / name, target / name)
+def entry_points(glsl: Path, changed: str) -> list[Path]:
+    """Entry points that are, or include by any way, the changed file of a glsl folder."""
+
+    def reaches(path: Path) -> bool:
+        if path == glsl / changed:
+            return True
+        return any(reaches(glsl / name) for name in re.findall(r'#include "([^"]+)"', path.read_text()))
+
+    stages = ("*.comp.glsl", "*.vert.glsl", "*.frag.glsl")
+    return [p for stage in stages for p in sorted(glsl.rglob(stage)) if "probe" not in p.parts and reaches(p)]
 
 
-def configure(tree: Path) -> None:
-    """Configure a build that puts the extension beside the copy's Python files."""
-    folder = subprocess.run(
-        [sys.executable, "-m", "pybind11", "--cmakedir"], check=True, capture_output=True, text=True
-    ).stdout.strip()
-    options = [
-        "-G",
-        "Ninja",
-        "-DCMAKE_BUILD_TYPE=Release",
-        "-DBURNISH_IN_PLACE=ON",
-        f"-Dpybind11_DIR={folder}",
-        f"-DPython_EXECUTABLE={sys.executable}",
-    ]
-    subprocess.run(["cmake", "-S", tree, "-B", tree / "build", *options], check=True, capture_output=True)
+def compile_shader(glsl: Path, entry: Path, folder: Path) -> None:
+    """Compile an entry point to the module that BURNISH_SPIRV_DIR takes in its place."""
+    stem = entry.relative_to(glsl).as_posix().removesuffix(".glsl")
+    stage = stem.rsplit(".", 1)[1]
+    target = folder / (stem.replace("/", "_").replace(".", "_") + ".spv")
+    command = ["glslangValidator", "-V", "--quiet", "--target-env", "vulkan1.3", "-S", stage, f"-I{glsl}"]
+    done = subprocess.run([*command, "-o", str(target), str(entry)], capture_output=True, text=True)
+    if done.returncode != 0:
+        raise ValueError(f"{entry.name}: expected code that compiles, got {done.stdout[-1000:]}")
 
 
-def build(tree: Path) -> str:
-    """Build the copy; return the compiler's complaint, "" where there is none."""
-    done = subprocess.run(
-        ["cmake", "--build", tree / "build", "--target", "_core"], capture_output=True, text=True
-    )
-    return "" if done.returncode == 0 else (done.stdout + done.stderr)[-2000:]
-
-
-def measure(tree: Path, cases: tuple[str, ...], samplers: tuple[str, ...]) -> dict:
-    """Measure cases on the copy; a crash counts as a failure of all."""
-    environment = os.environ | {"PYTHONPATH": str(tree / "python"), "PYTHONDONTWRITEBYTECODE": "1"}
+def measure(spirv: Path, cases: tuple[str, ...], samplers: tuple[str, ...]) -> list[str]:
+    """Return the rows that fail with the modules of a folder; a crash counts as a failure of all."""
+    environment = os.environ | {"BURNISH_SPIRV_DIR": str(spirv)}
     done = subprocess.run(
         [sys.executable, "-c", MEASURE, json.dumps([cases, samplers])],
         env=environment,
@@ -87,54 +72,43 @@ def measure(tree: Path, cases: tuple[str, ...], samplers: tuple[str, ...]) -> di
         timeout=600,
     )
     if done.returncode != 0:
-        return {"rows": 1, "failed": [f"crash: {done.stderr.strip().splitlines()[-1:]}"]}
-    return json.loads(done.stdout.splitlines()[-1])
+        return [f"a crash, exit {done.returncode}"]
+    failed: list[str] = json.loads(done.stdout.splitlines()[-1])
+    return failed
 
 
-def try_one(tree: Path, mutation: Mutation) -> list[str]:
-    """Return the rows that fail with the naive formula in place; the copy is as before afterwards."""
-    path = tree / mutation.file
-    text = path.read_text()
-    if text.count(mutation.stable) != 1:
-        raise ValueError(f"{mutation.name}: expected its stable form once in {mutation.file}")
-    path.write_text(text.replace(mutation.stable, mutation.naive))
-    try:
-        complaint = build(tree)
-        if complaint:
-            raise ValueError(f"{mutation.name}: expected code that compiles, got {complaint}")
-        return measure(tree, mutation.cases, mutation.samplers)["failed"]
-    finally:
-        path.write_text(text)
+def try_one(mutation: Mutation) -> list[str]:
+    """Return the rows that fail with the naive formula in place, in a copy of the shaders."""
+    with tempfile.TemporaryDirectory(prefix="burnish-mutate-") as folder:
+        glsl, spirv = Path(folder) / "glsl", Path(folder) / "spirv"
+        shutil.copytree(REPOSITORY / "glsl", glsl)
+        spirv.mkdir()
+        name = mutation.file.removeprefix("glsl/")
+        text = (glsl / name).read_text()
+        if text.count(mutation.stable) != 1:
+            raise ValueError(f"{mutation.name}: expected its stable form once in {mutation.file}")
+        (glsl / name).write_text(text.replace(mutation.stable, mutation.naive))
+        for entry in entry_points(glsl, name):
+            compile_shader(glsl, entry, spirv)
+        return measure(spirv, mutation.cases, mutation.samplers)
 
 
 def run(mutations: list[Mutation], output: str | None) -> int:
     """Try mutations one after the other; 0 if all are caught."""
-    with tempfile.TemporaryDirectory(prefix="burnish-mutate-") as folder:
-        tree = Path(folder)
-        print("building a copy of the tree", flush=True)
-        copy_tree(tree)
-        configure(tree)
-        complaint = build(tree)
-        if complaint:
-            print(complaint, file=sys.stderr)
-            return 2
-        cases = tuple(dict.fromkeys(name for mutation in mutations for name in mutation.cases))
-        before = measure(tree, cases, ())
-        if before["failed"]:
-            print(f"cases that fail without any mutation: {before['failed']}", file=sys.stderr)
-            return 2
-        lines, missed = [], 0
+    with tempfile.TemporaryDirectory() as empty:
         for mutation in mutations:
-            began = time.monotonic()
-            failed = try_one(tree, mutation)
-            missed += not failed
-            verdict = "; ".join(failed) if failed else "**missed**"
-            lines.append(f"| {mutation.name} | {mutation.file} | {verdict} |")
-            seconds = time.monotonic() - began
-            print(
-                f"{'caught' if failed else 'MISSED'}: {mutation.name} ({seconds:.0f} s): {verdict}",
-                flush=True,
-            )
+            before = measure(Path(empty), mutation.cases, mutation.samplers)
+            if before:
+                raise ValueError(f"{mutation.name}: expected cases that pass without it, got {before}")
+    lines, missed = [], 0
+    for mutation in mutations:
+        began = time.monotonic()
+        failed = try_one(mutation)
+        missed += not failed
+        verdict = "; ".join(failed) if failed else "**missed**"
+        lines.append(f"| {mutation.name} | {mutation.file} | {verdict} |")
+        seconds = time.monotonic() - began
+        print(f"{'caught' if failed else 'MISSED'}: {mutation.name} ({seconds:.0f} s): {verdict}", flush=True)
     summary = f"{len(mutations) - missed} of {len(mutations)} caught."
     print(summary)
     if output:

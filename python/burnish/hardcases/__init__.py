@@ -6,7 +6,7 @@
 from burnish.hardcases.bench import Bench
 from burnish.hardcases.case import SAMPLERS, Bound, HardCase, Measurement, Quantity, driver_class
 from burnish.hardcases.catalogue import CASES, KNOWN_FAILURES, find_case
-from burnish.hardcases.run import measure, rows, run
+from burnish.hardcases.runner import measure, rows, run
 from burnish.hardcases.table import Table, page
 
 __all__ = [

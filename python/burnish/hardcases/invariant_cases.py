@@ -173,6 +173,11 @@ def symmetry_cases() -> list[HardCase]:
         "that knows the z axis",
         follows_lookups=True,
     )
+    other_lanes = Bound(
+        5e-7,
+        "none with the software lookup; in lavapipe's sampler the last digit depends on what other lanes of a "
+        "vector read",
+    )
     half = Bound(1.5e-3, "half floats round each texel and each level once, by 2^-11", follows_lookups=True)
 
     def same(
@@ -264,7 +269,7 @@ def symmetry_cases() -> list[HardCase]:
         HardCase(
             "order of points",
             "lanes that talk to each other",
-            Quantity("relative difference", reordered, SAME_BITS),
+            Quantity("relative difference", reordered, other_lanes),
             "issue",
         ),
         HardCase(

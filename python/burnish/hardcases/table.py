@@ -83,8 +83,9 @@ class Table:
                 ("case", "quantity", "measured / bound"), [(c, w, _cell(found[c, ""])) for c, w in single]
             )
             lines += [""]
-        notes = [m for m in self.measurements if not m.passed and (m.known or m.note)]
-        lines += [f"- {m.case}, {m.sampler or 'no sampler'}: {m.known or m.note}" for m in notes]
+        known = dict.fromkeys(m.known for m in self.measurements if m.verdict == "known failure")
+        lines += [f"Known failures: {reason}." for reason in known]
+        lines += [f"- {m.case}, {m.sampler or 'no sampler'}: {m.note}" for m in self.measurements if m.note]
         return "\n".join(lines).rstrip() + "\n"
 
 

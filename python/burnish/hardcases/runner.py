@@ -43,7 +43,7 @@ def measure(case: HardCase, sampler: str, bench: Bench) -> Measurement:
             measured = case.quantity.measure(bench, sampler)
     except Exception as error:  # the table goes on, whatever broke
         note = f"{type(error).__name__}: {' '.join(str(error).split())}"
-    known = known_failure(bench.device.driver + bench.device.name, case.name, sampler)
+    known = known_failure(bench.device, sampler)
     return Measurement(case.name, sampler, case.quantity.name, bound, measured, known, note)
 
 
