@@ -5,6 +5,7 @@ import json
 import os
 import re
 import shutil
+import signal
 import subprocess
 import sys
 import tempfile
@@ -62,7 +63,7 @@ def compile_shader(glsl: Path, entry: Path, folder: Path) -> None:
 
 
 def measure(spirv: Path, cases: tuple[str, ...], samplers: tuple[str, ...]) -> list[str]:
-    """Return the rows that fail with the modules of a folder; a crash counts as a failure of all."""
+    """Return the rows that fail with the modules of a folder; one of the driver counts as a failure."""
     environment = os.environ | {"BURNISH_SPIRV_DIR": str(spirv)}
     done = subprocess.run(
         [sys.executable, "-c", MEASURE, json.dumps([cases, samplers])],
@@ -71,8 +72,10 @@ def measure(spirv: Path, cases: tuple[str, ...], samplers: tuple[str, ...]) -> l
         text=True,
         timeout=600,
     )
+    if done.returncode < 0:
+        return [f"a crash, {signal.Signals(-done.returncode).name}"]
     if done.returncode != 0:
-        return [f"a crash, exit {done.returncode}"]
+        raise RuntimeError(f"cases could not be measured: {done.stderr[-1000:]}")
     failed: list[str] = json.loads(done.stdout.splitlines()[-1])
     return failed
 

@@ -74,7 +74,7 @@ def _threshold(value: float, why: str) -> HardCase:
     settings = {"regular": {"threshold": value, "normalization": "projected"}}
     shot = Shot("smooth", around, ({"roughness": (0.3, 0.2)},), settings=settings)
     bound = Bound(1e-4, "half-vectors 60 degrees off the normal weigh as much as those about it", True)
-    return HardCase(f"threshold {value}", why, twin_error(shot), "RS eq. 11", ("regular",), bound)
+    return HardCase(f"threshold {value:g}", why, twin_error(shot), "RS eq. 11", ("regular",), bound)
 
 
 def _no_samples(sampler: str) -> Any:

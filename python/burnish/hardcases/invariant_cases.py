@@ -175,8 +175,8 @@ def symmetry_cases() -> list[HardCase]:
     )
     other_lanes = Bound(
         5e-7,
-        "none with the software lookup; in lavapipe's sampler the last digit depends on what other lanes of a "
-        "vector read",
+        "none with the software lookup; in lavapipe's sampler the last digit depends on what other lanes "
+        "read",
     )
     half = Bound(1.5e-3, "half floats round each texel and each level once, by 2^-11", follows_lookups=True)
 

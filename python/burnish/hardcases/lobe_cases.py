@@ -9,7 +9,7 @@ from burnish.hardcases.bench import Bench, make_sampler
 from burnish.hardcases.bounds import BRUSHED_BOUND
 from burnish.hardcases.case import BY_LOBE, Bound, HardCase, Quantity
 from burnish.hardcases.inputs import around
-from burnish.hardcases.quantities import SAMPLES, difference, twin_case
+from burnish.hardcases.quantities import SAMPLES, Shot, difference, twin_case, twin_error
 from burnish.oracle.cube_map import sample_cube
 
 WITH_COUNTS = ("regular", "importance", "matched")
@@ -62,6 +62,15 @@ def agreement(roughness: float, samplers: dict[str, float]) -> Quantity:
     )
     return Quantity(
         "relative RMSE against every texel", measure, Bound(samplers, reason, follows_lookups=True)
+    )
+
+
+def _published(name: str, why: str, roughness: float, threshold: float) -> HardCase:
+    settings = {"threshold": threshold, "footprint": "published", "normalization": "published"}
+    shot = Shot("smooth", around, ({"roughness": roughness},), settings={"regular": settings})
+    bound = Bound(1e-4, "areas by 4 pi sin sin, right to some roundings; levels of wide lobes follow", True)
+    return HardCase(
+        f"published footprint, {name}", why, twin_error(shot), "RS eqs. 14-16", ("regular",), bound
     )
 
 
@@ -128,6 +137,8 @@ def roughness_cases() -> list[HardCase]:
             roughness=(0.001, 1.0),
             rotation=1.0,
         ),
+        _published("roughness 1", "tan(alpha) of eq. 15 past 90 degrees: a negative area", 1.0, 0.01),
+        _published("roughness 1e-3", "acos of a dot product of nearly 1: an area of 0", 1e-3, 0.2),
         HardCase(
             "samplers agree, roughness 0.1",
             "one image, many ways",

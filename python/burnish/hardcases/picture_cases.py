@@ -130,6 +130,15 @@ def _touching(bench: Bench) -> Frame:
     return draw(bench, (_core.Mesh.sphere(segments=24), BRUSHED, np.eye(4)), eye=(0.0, 0.0, 1.0), near=1e-6)
 
 
+def _quad(bench: Bench, tangent: tuple[float, float, float, float], rotation: float = 0.5) -> Frame:
+    """A brushed square whose vertices all have this tangent and handedness."""
+    corners = float32([[-1, -1, 0], [1, -1, 0], [1, 1, 0], [-1, 1, 0]])
+    normals, tangents = float32([[0, 0, 1]] * 4), float32([tangent] * 4)
+    mesh = _core.Mesh(corners, np.array([[0, 1, 2], [0, 2, 3]], np.uint32), normals, tangents)
+    lobe = _core.KurtLobe(roughness=(0.3, 0.05), alpha=0.5, rotation=rotation)
+    return draw(bench, (mesh, _core.Material(lobes=[lobe]), np.eye(4)))
+
+
 def _two(bench: Bench, is_reversed: bool) -> Frame:
     objects = [
         (_core.Mesh.sphere(segments=24), m, _moved(x, 0, 0)) for m, x in ((MATERIAL, -0.5), (BRUSHED, 0.5))
@@ -196,6 +205,17 @@ def _cases() -> list[HardCase]:
         case(
             "mirrored object", "winding and handedness", unlike(base, lambda b: sphere(b, 1.0, -1.0), facets)
         ),
+        case(
+            "mirrored tangents",
+            "handedness lost on the way through the G-buffer",
+            unlike(
+                lambda b: _quad(b, (0.6, 0.8, 0.0, 1.0)),
+                lambda b: _quad(b, (0.6, 0.8, 0.0, -1.0), -0.5),
+                Bound(2e-5, "the pattern is symmetric about the tangent: the same samples in another order"),
+            ),
+        ),
+        wild("tangents of zero", "0/0 in every pixel", lambda b: _quad(b, (0.0, 0.0, 0.0, 1.0))),
+        wild("tangents along the normals", "the same", lambda b: _quad(b, (0.0, 0.0, 1.0, -1.0))),
         case(
             "order of objects",
             "pictures that depend on it",

@@ -124,7 +124,7 @@ def exponent_cases() -> list[HardCase]:
     )
     cases = [
         twin_case(
-            f"alpha {alpha}, view at cos 0.01",
+            f"alpha {alpha:g}, view at cos 0.01",
             "cos_i/(cos_i cos_o)^alpha is NaN below the horizon",
             "maths 7",
             GRAZING_BOUND,
@@ -135,7 +135,7 @@ def exponent_cases() -> list[HardCase]:
         for alpha in (0.0, 0.5, 1.0)
     ] + [
         twin_case(
-            f"alpha {alpha}, view at cos 1e-4",
+            f"alpha {alpha:g}, view at cos 1e-4",
             "pow(0, 0) at the horizon",
             "maths 7",
             GRAZING_BOUND,

@@ -1,7 +1,9 @@
 """The worst inputs, each within its bound: the table that `burnish doctor --hard-cases` prints."""
 
+import numpy as np
 import pytest
 
+import burnish
 from burnish import hardcases
 
 
@@ -33,3 +35,14 @@ def test_doctor_measures_the_table_and_judges_by_it(device, monkeypatch):
     assert steps[0] == (0.0, "map of zeros, regular") and len(steps) == 6
     assert "6 of 6 rows, of 2 cases, within their bounds" in str(report)
     assert report.sections["hard cases"][0].status == "ok"
+
+
+def test_shaders_of_a_folder_stand_in_for_those_built_in(monkeypatch, tmp_path, uniform):
+    """A module that is none is refused by name; what the folder lacks is as ever."""
+    monkeypatch.setenv("BURNISH_SPIRV_DIR", str(tmp_path))
+    (tmp_path / "shade_shade_prefiltered_comp.spv").write_bytes(b"")
+    other, up = burnish.Device(), np.float32([[0, 0, 1]])
+    material = burnish.Material(lobes=[burnish.KurtLobe()])
+    with pytest.raises(ValueError, match=r"BURNISH_SPIRV_DIR: expected SPIR-V, got .*prefiltered_comp\.spv"):
+        burnish.shade(uniform, material, burnish.Prefiltered(), up, up, up, device=other)
+    assert burnish.shade(uniform, material, burnish.Importance(2), up, up, up, device=other).min() > 0.5

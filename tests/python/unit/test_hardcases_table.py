@@ -1,5 +1,9 @@
 """The catalogue of hard cases is complete, and its table tells passes from failures."""
 
+import importlib.util
+import sys
+from pathlib import Path
+
 import pytest
 
 from burnish import hardcases
@@ -67,3 +71,22 @@ def test_find_case_names_what_it_does_not_find():
 def test_command_line_wants_hard_cases_where_it_writes_them(capsys):
     assert main(["doctor", "-o", "x.md"]) == 2
     assert "--hard-cases: expected it beside --output and --lookup" in capsys.readouterr().err
+
+
+def load_mutations():
+    path = Path(__file__).resolve().parents[3] / "scripts/mutations.py"
+    spec = importlib.util.spec_from_file_location("mutations", path)
+    module = importlib.util.module_from_spec(spec)
+    sys.modules["mutations"] = module  # its dataclass looks there for itself
+    spec.loader.exec_module(module)
+    return path.parents[1], module.MUTATIONS
+
+
+def test_mutations_fit_the_shaders_and_name_cases():
+    repository, mutations = load_mutations()
+    assert len(mutations) >= 20
+    for mutation in mutations:
+        assert (repository / mutation.file).read_text().count(mutation.stable) == 1, mutation.name
+        for name in mutation.cases:
+            samplers = hardcases.find_case(name).samplers
+            assert not mutation.samplers or set(mutation.samplers) & set(samplers), (mutation.name, name)
