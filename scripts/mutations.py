@@ -115,7 +115,7 @@ MUTATIONS = (
         KURT,
         "float a = clamp(1.0 - u, 0.0, 1.0);\n    float a2 = a * a;\n    return a2 * a2 * a;",
         "return pow(1.0 - u, 5.0);",
-        ("r0 0 along the normal",),
+        ("r0 0, straight from above",),
     ),
     Mutation(
         "sums divided without looking",
@@ -125,14 +125,6 @@ MUTATIONS = (
         "    return numerator / denominator;",
         ("weight 0",),
         ("regular", "matched"),
-    ),
-    Mutation(
-        "levels below the finest",
-        LOOKUP,
-        "float clamped = level > 0.0 ? level : 0.0;",
-        "float clamped = level;",
-        ("levels 16 below the finest", "roughness 1e-3"),
-        ("regular", "importance", "prefiltered"),
     ),
     Mutation(
         "levels beyond the coarsest",
@@ -181,14 +173,6 @@ MUTATIONS = (
         ("constant, levels of prefiltered",),
     ),
     Mutation(
-        "minor axis by a difference",
-        MATCHED,
-        "axes.minor = product * inversesqrt(major2);",
-        "axes.minor = sqrt(0.5 * (p + s) - radius);",
-        ("aspect 1000", "aspect 100"),
-        ("matched",),
-    ),
-    Mutation(
         "mixtures beyond the table's end",
         MATCHED,
         "int(node < float(MATCHED_ROWS - 1u) ? node : float(MATCHED_ROWS - 1u))",
@@ -225,16 +209,7 @@ MUTATIONS = (
         "glsl/shade/suns.glsl",
         "vec2 wider = sqrt(v.roughness * v.roughness + sun.w / (2.0 * cos_d * h.z * h.z * h.z));",
         "vec2 wider = v.roughness;",
-        ("sun of 1e7",),
-        ("matched",),
-    ),
-    Mutation(
-        "width of a lobe seen along its normal",
-        "glsl/shade/albedo.glsl",
-        "max(dot(local_o.xy, local_o.xy), 1e-30)",
-        "dot(local_o.xy, local_o.xy)",
-        ("brushed lobe along the normal",),
-        ("matched", "prefiltered"),
+        ("sun of half a degree, split off",),
     ),
     Mutation(
         "map as sharp as a lobe of level 1",

@@ -54,6 +54,12 @@ def seen_at(cosines: Sequence[float], azimuths: int = 5) -> Points:
     return normals, tangents, views
 
 
+def from_above(count: int = 48) -> Points:
+    """Views that are the normals, whose products with them round to either side of 1."""
+    normals, tangents, _ = around(count)
+    return normals, tangents, normals
+
+
 def mirroring(directions: ArrayLike) -> Points:
     """Points that mirror the view exactly into the directions, seen at 1/3, 2/3 and all of the way up."""
     rows = []
@@ -112,6 +118,16 @@ def spoilt(value: float) -> Float32:
     return faces
 
 
+SUN = np.array([0.3, 0.8, 0.5])
+
+
+def sunny(face_size: int = 128) -> Float32:
+    """Smooth light and a sun of half a degree's radius, 60000 times as bright."""
+    faces = smooth(face_size)
+    faces[cube_directions(face_size) @ unit(SUN) > np.cos(np.radians(0.5))] = (6e4, 5.6e4, 4e4)
+    return faces
+
+
 def noise(face_size: int) -> Float32:
     """Texels that know nothing of their neighbours."""
     return float32(np.exp(np.random.default_rng(9).normal(0, 1, (6, face_size, face_size, 3))))
@@ -124,6 +140,7 @@ LIGHTS: dict[str, Callable[[], Float32]] = {
     "black": lambda: constant(0.0),
     "one texel": lambda: one_texel(HALF_MAX),
     "sun": lambda: np.maximum(smooth(), one_texel(1e7)),
+    "sun of half a degree": sunny,
     "NaN": lambda: spoilt(np.nan),
     "infinite": lambda: spoilt(np.inf),
     "negative": lambda: spoilt(-5.0),

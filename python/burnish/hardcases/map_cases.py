@@ -11,6 +11,7 @@ from burnish.hardcases.bench import Bench
 from burnish.hardcases.case import BY_LOBE, ONCE, SAMPLERS, Bound, HardCase, Quantity
 from burnish.hardcases.inputs import (
     HALF_MAX,
+    SUN,
     Float32,
     Points,
     around,
@@ -39,6 +40,11 @@ def about_the_texel() -> Points:
     middle = cube_directions(32)[4, 1, 1]
     rng = np.random.default_rng(2)
     return mirroring(unit(middle + rng.normal(0, 0.06, (12, 3))))
+
+
+def about_the_sun() -> Points:
+    """Points that mirror the view within some degrees of the sun of half a degree."""
+    return mirroring(unit(unit(SUN) + np.random.default_rng(2).normal(0, 0.05, (12, 3))))
 
 
 def into_the_texel() -> Points:
@@ -151,6 +157,16 @@ def map_cases() -> list[HardCase]:
             Quantity("values not finite or negative", diffuse_error, Bound(0.0, "light is never negative")),
             "SH",
             ONCE,
+        ),
+        HardCase(
+            "sun of half a degree, split off",
+            "a point of light that a narrow lobe sees or does not",
+            twin_error(shot_of("sun of half a degree", about_the_sun, roughness=0.02)),
+            "maths 6",
+            ("matched",),
+            Bound(
+                1e-3, "a lobe of slope 0.02, as wide as the sun makes it, within roundings of the half-vector"
+            ),
         ),
         HardCase(
             "sun of 1e7",

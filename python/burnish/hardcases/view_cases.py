@@ -5,7 +5,7 @@ from typing import Any
 
 from burnish.hardcases.bounds import BRUSHED_BOUND, FRESNEL_BOUND, GRAZING_BOUND, HORIZON_BOUND
 from burnish.hardcases.case import SAMPLERS, Bound, HardCase
-from burnish.hardcases.inputs import around, seen_at
+from burnish.hardcases.inputs import around, from_above, seen_at
 from burnish.hardcases.quantities import Shot, largest_value, same_picture, shot_of, twin_case, wild_values
 
 
@@ -195,6 +195,12 @@ def exponent_cases() -> list[HardCase]:
             points=_at(1.0),
             roughness=0.2,
             r0=0.0,
+        ),
+        HardCase(
+            "r0 0, straight from above",
+            "products of unit vectors above 1: powers of negative numbers",
+            wild_values(Shot("smooth", from_above, ({"roughness": 0.01, "r0": 0.0},))),
+            "maths 1",
         ),
         twin_case(
             "r0 0, 0.5 and 1 by channel",
