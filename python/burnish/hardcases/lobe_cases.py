@@ -68,10 +68,7 @@ def agreement(roughness: float, samplers: dict[str, float]) -> Quantity:
 def _published(name: str, why: str, roughness: float, threshold: float) -> HardCase:
     settings = {"threshold": threshold, "footprint": "published", "normalization": "published"}
     shot = Shot("smooth", around, ({"roughness": roughness},), settings={"regular": settings})
-    bound = Bound(1e-4, "areas by 4 pi sin sin, right to some roundings; levels of wide lobes follow", True)
-    return HardCase(
-        f"published footprint, {name}", why, twin_error(shot), "RS eqs. 14-16", ("regular",), bound
-    )
+    return HardCase(f"published footprint, {name}", why, twin_error(shot), "RS eqs. 14-16", ("regular",))
 
 
 def roughness_cases() -> list[HardCase]:

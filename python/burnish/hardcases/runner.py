@@ -37,6 +37,8 @@ def measure(case: HardCase, sampler: str, bench: Bench) -> Measurement:
     bound = case.limit.of(sampler)
     if case.limit.follows_lookups and driver_class(bench.device) == "rounded":
         bound += ROUNDED_WEIGHTS * BRIGHTEST_TO_MEAN
+    if bench.device.lookup == "software":
+        bound += case.limit.corners
     measured, note = math.nan, ""
     try:
         with np.errstate(all="ignore"):
