@@ -45,7 +45,7 @@ def measure(case: HardCase, sampler: str, bench: Bench) -> Measurement:
             measured = case.quantity.measure(bench, sampler)
     except Exception as error:  # the table goes on, whatever broke
         note = f"{type(error).__name__}: {' '.join(str(error).split())}"
-    known = known_failure(bench.device, sampler)
+    known = known_failure(bench.device, case.name, sampler)
     return Measurement(case.name, sampler, case.quantity.name, bound, measured, known, note)
 
 

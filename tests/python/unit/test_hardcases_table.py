@@ -62,6 +62,20 @@ def test_page_lists_each_case_with_its_reason(table):
         assert f"| {case.name} | {case.why} |" in text and f"{case.limit.reason}." in text
 
 
+def test_a_known_failure_holds_for_its_driver_lookup_and_cases_alone():
+    from burnish.hardcases.catalogue import known_failure
+
+    def device(name, lookup):
+        return type("Device", (), {"name": name, "driver": "", "lookup": lookup})()
+
+    swift = device("SwiftShader Device", "software")
+    assert "stale texels" in known_failure(swift, "roughness 1", "prefiltered")
+    assert "1e18" in known_failure(swift, "wall at distance 1e18", "")
+    assert known_failure(swift, "roughness 1", "regular") == ""
+    assert known_failure(device("llvmpipe", "software"), "roughness 1", "prefiltered") == ""
+    assert "stale texels" in known_failure(device("SwiftShader Device", "sampler"), "roughness 1", "regular")
+
+
 def test_find_case_names_what_it_does_not_find():
     assert hardcases.find_case("map of zeros").name == "map of zeros"
     with pytest.raises(ValueError, match="name: expected that of a hard case, got 'no such case'"):
