@@ -61,9 +61,11 @@ class Bench:
             self._maps[name] = _core.Environment.from_faces(LIGHTS[name]())
         return self._maps[name]
 
-    def lookup_slack(self, brightest: float) -> float:
-        """Most that rounded weights may add to a lookup of a map whose brightest texel is that."""
-        return ROUNDED_WEIGHTS * brightest if driver_class(self.device) == "rounded" else 0.0
+    def lookup_slack(self, light: str) -> float:
+        """Most that rounded weights may add to a lookup of the map of that name: of its brightest texel."""
+        if driver_class(self.device) != "rounded":
+            return 0.0
+        return ROUNDED_WEIGHTS * float(self.light(light).faces.max())
 
     def shade(
         self, light: str | _core.Environment, lobes: list[_core.KurtLobe], sampler: Sampler, points: Points

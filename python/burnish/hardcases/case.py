@@ -49,8 +49,6 @@ class Bound:
         In the unit of the case's quantity.
     reason : str
         Where that figure comes from.
-    follows_lookups : bool
-        Whether rounded weights of lookups add to it.
     corners : float
         What the software lookup adds: the mean of three texels that stands for a corner's fourth is kept as a
         half float, up to 2^-12 off, of which a lookup sees a quarter at the corner and less elsewhere.
@@ -58,7 +56,6 @@ class Bound:
 
     value: float | Mapping[str, float]
     reason: str
-    follows_lookups: bool = False
     corners: float = 0.0
 
     def of(self, sampler: str) -> float:

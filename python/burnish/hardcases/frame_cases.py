@@ -95,7 +95,6 @@ def frame_cases() -> list[HardCase]:
         {"regular": 1e-4, "importance": 2e-3, "matched": 1e-4, "prefiltered": 1e-4, "reference": 1.2e-3},
         "what is left of the tangent is 3e-3 off by rounding; a round lobe does not mind, but for the "
         "pattern's azimuth",
-        follows_lookups=True,
     )
     return [
         twin("tangent zero", "0/0 in its length", lambda: with_tangents(around(), 0.0)),
@@ -157,7 +156,6 @@ def lookup_cases() -> list[HardCase]:
     corner = Bound(
         {"regular": 1e-5, "importance": 1e-5, "matched": 1e-5, "prefiltered": 1e-5},
         "a lookup placed within 1e-6 of its face; the software lookup is up to 1.2e-4 off at a corner itself",
-        follows_lookups=True,
         corners=1.2e-4,
     )
     cube = partial(mirroring, np.concatenate([np.eye(3), -np.eye(3)]))

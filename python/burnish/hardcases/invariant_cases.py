@@ -166,19 +166,18 @@ def symmetry_cases() -> list[HardCase]:
     brushed = Shot("smooth", around, (BRUSHED,))
     round_shot = Shot("smooth", around, (ROUND,))
     two = Shot("smooth", around, (BRUSHED, ROUND))
-    rounding = Bound(2e-5, ROUNDINGS, follows_lookups=True)
+    rounding = Bound(2e-5, ROUNDINGS)
     turn_bound = Bound(
         {**dict.fromkeys(SAMPLERS, 2e-5), "matched": 1.5e-3, "prefiltered": 1.2e-2},
         f"{ROUNDINGS}; samples that make prefiltered maps, 1 %, and matched's, 1e-3, are placed in a basis "
         "that knows the z axis",
-        follows_lookups=True,
     )
     other_lanes = Bound(
         5e-7,
         "none with the software lookup; in lavapipe's sampler the last digit depends on what other lanes "
         "read",
     )
-    half = Bound(1.5e-3, "half floats round each texel and each level once, by 2^-11", follows_lookups=True)
+    half = Bound(1.5e-3, "half floats round each texel and each level once, by 2^-11")
 
     def same(
         name: str,

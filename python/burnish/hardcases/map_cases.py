@@ -99,9 +99,7 @@ def size_error(sampler_light: int) -> Quantity:
         return difference(large, small)
 
     reason = "light linear in the direction: bilinear lookups and levels of either map are within 5e-4 of it"
-    return Quantity(
-        "relative difference from faces of 64", measure, Bound(1e-3, reason, follows_lookups=True)
-    )
+    return Quantity("relative difference from faces of 64", measure, Bound(1e-3, reason))
 
 
 def map_cases() -> list[HardCase]:
@@ -111,12 +109,10 @@ def map_cases() -> list[HardCase]:
         "a texel of 65504 over black: radiance changes by 1e5 within a texel, in which a lookup is placed "
         "within 1e-6 of its face; matched takes it for a sun, whose lobe of slope 1e-3 lies within roundings "
         "of the half-vector; the reference as ever",
-        follows_lookups=True,
     )
     table = Bound(
         {"regular": 5e-6, "importance": 5e-6, "matched": 2e-4, "prefiltered": 2e-4, "reference": 1.2e-3},
         "as ever; the albedo's table is within 2e-4 for a round lobe of alpha 0.5",
-        follows_lookups=True,
         corners=1e-4,
     )
     return [

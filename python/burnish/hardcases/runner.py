@@ -7,7 +7,7 @@ import numpy as np
 
 from burnish._core import Device
 from burnish.hardcases.bench import Bench
-from burnish.hardcases.case import ROUNDED_WEIGHTS, HardCase, Measurement, driver_class
+from burnish.hardcases.case import HardCase, Measurement
 from burnish.hardcases.catalogue import CASES, known_failure
 from burnish.hardcases.table import Table
 
@@ -35,8 +35,6 @@ def measure(case: HardCase, sampler: str, bench: Bench) -> Measurement:
         Where the case raised an error, it failed and the note says which.
     """
     bound = case.limit.of(sampler)
-    if case.limit.follows_lookups and driver_class(bench.device) == "rounded":
-        bound += ROUNDED_WEIGHTS * BRIGHTEST_TO_MEAN
     if bench.device.lookup == "software":
         bound += case.limit.corners
     measured, note = math.nan, ""
@@ -47,10 +45,6 @@ def measure(case: HardCase, sampler: str, bench: Bench) -> Measurement:
         note = f"{type(error).__name__}: {' '.join(str(error).split())}"
     known = known_failure(bench.device, case.name, sampler)
     return Measurement(case.name, sampler, case.quantity.name, bound, measured, known, note)
-
-
-#: Of the maps of the cases whose bounds follow lookups, smooth light and noise.
-BRIGHTEST_TO_MEAN = 10.0
 
 
 def run(
