@@ -8,7 +8,7 @@ if TYPE_CHECKING:
     from burnish import Device
     from burnish.hardcases.bench import Bench
 
-DriverClass = Literal["exact", "rounded", "swiftshader"]
+DriverClass = Literal["exact", "rounded"]
 
 #: The samplers that a case runs with, by the names of the table; "" stands for a case without one.
 SAMPLERS = ("regular", "importance", "matched", "prefiltered", "reference")
@@ -21,22 +21,17 @@ ROUNDED_WEIGHTS = 3 * 2.0**-9
 
 
 def driver_class(device: "Device") -> DriverClass:
-    """What a device's lookups are worth, which decides the bounds.
+    """What a device's lookups are worth, which decides what is allowed for them.
 
     "exact": weights in float32, as CPU drivers and the software lookup have them; "rounded": weights of 8
-    bits, as the samplers of GPUs have them; "swiftshader": exact, but its sampler reads mip levels of cubes
-    up to 5 % low.
+    bits, as the samplers of GPUs have them. What one driver does wrong is in ``KNOWN_FAILURES``.
 
     Parameters
     ----------
     device : Device
         An open device.
     """
-    if device.lookup == "software":
-        return "exact"
-    if "swiftshader" in device.name.lower():
-        return "swiftshader"
-    return "exact" if device.is_software else "rounded"
+    return "exact" if device.is_software or device.lookup == "software" else "rounded"
 
 
 @dataclass(frozen=True)

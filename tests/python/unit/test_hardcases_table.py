@@ -32,7 +32,9 @@ def test_a_case_that_raises_fails_and_says_what():
     def broken(bench, sampler):
         raise RuntimeError("no such thing")
 
-    device = type("Device", (), {"driver": "some", "name": "thing", "lookup": "software"})()
+    device = type(
+        "Device", (), {"driver": "some", "name": "thing", "lookup": "software", "is_software": True}
+    )()
     case = HardCase("x", "y", Quantity("z", broken, Bound(1.0, "r")), "s", ("regular",))
     found = hardcases.measure(case, "regular", hardcases.Bench(device))
     assert not found.passed and found.verdict == "fail" and found.note == "RuntimeError: no such thing"
