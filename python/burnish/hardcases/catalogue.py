@@ -83,6 +83,13 @@ _PICTURES = (
 )
 KNOWN_FAILURES = (
     *_PICTURES,
+    KnownFailure(
+        "swiftshader",
+        "software",
+        ("regular",),
+        "SwiftShader's texel buffers hold 65536 elements: VulkanError refuses faces of 2048",
+        ("faces of 2048 texels",),
+    ),
     KnownFailure("swiftshader", "sampler", (*SAMPLERS, *ONCE), _STALE),
     KnownFailure("swiftshader", "software", ("matched", "prefiltered"), f"levels made with it: {_STALE}"),
     KnownFailure(
