@@ -117,7 +117,7 @@ f = weight F(u) D / (4 (o.h) ((i.n)(o.n))^alpha) with F(u) = r0 + (1 - r0)(1 - u
 Parameters
 ----------
 roughness : float or (float, float)
-    Beckmann slopes along tangent and bitangent, in 0.001..1. One number is an isotropic lobe.
+    Beckmann slopes along tangent and bitangent, in 1e-6..1. One number is an isotropic lobe.
 r0 : float or (float, float, float)
     Reflectance at normal incidence, in 0..1. 1 switches Fresnel off.
 alpha : float

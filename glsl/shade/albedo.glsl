@@ -12,8 +12,11 @@ layout(binding = BINDING_ALBEDO_TABLE, rg32f) uniform readonly imageBuffer albed
 vec2 albedo_row(uint begin, float cos_o) {
     float x = sqrt(clamp(cos_o, 0.0, 1.0)) * float(ALBEDO_COS_NODES - 1u);
     float i = min(floor(x), float(ALBEDO_COS_NODES - 2u));
+    float share = x - i;
+    // Of a narrow lobe E1 is cos_o^(1-alpha): linear in cos_o, x squared, for alpha 0, and in x for alpha .5.
+    if (ALPHA == ALPHA_ZERO) share *= (x + i) / (2.0 * i + 1.0);
     int entry = int(begin) + int(i);
-    return mix(imageLoad(albedo_table, entry).xy, imageLoad(albedo_table, entry + 1).xy, x - i);
+    return mix(imageLoad(albedo_table, entry).xy, imageLoad(albedo_table, entry + 1).xy, share);
 }
 
 vec2 fixed_albedo(uint begin, uint width_nodes, vec3 local_o, vec2 roughness) {

@@ -3,6 +3,7 @@
 #define BURNISH_SHADE_SURFACE_POINT
 
 #include "lib/frame.glsl"
+#include "lib/kurt_lobe.glsl"
 #include "shade/guard.glsl"
 
 struct SurfaceLobe {
@@ -13,6 +14,7 @@ struct SurfaceLobe {
 
 struct PointToShade {
     bool is_mine;  // else nothing is stored
+    bool is_seen;  // from in front; else it is black
     uint index;    // into radiance_out
     uint material;
     ivec2 pixel;
@@ -49,7 +51,10 @@ PointToShade load_point() {
         point.material = floatBitsToUint(given.omega_o.w);
         point.pixel = ivec2(0);
         point.frame = frame_from_tangent(given.normal.xyz, given.tangent.xyz, given.tangent.w);
-        point.omega_o = given.omega_o.xyz;
+        float cos_o = dot(given.normal.xyz, given.omega_o.xyz);
+        point.is_seen = cos_o > 0.0;
+        // Raised to MIN_COS like the cosine in the lobe's grazing power: where og and q would be rounding alone.
+        point.omega_o = given.omega_o.xyz + max(MIN_COS - cos_o, 0.0) * given.normal.xyz;
         return point;
     }
     ViewRecord view = load_view();
@@ -59,6 +64,7 @@ PointToShade load_point() {
     point.material = has_surface(surface) ? unpack_material(surface) : 0u;
     point.is_mine = is_inside && has_surface(surface) && load_material(point.material).shade_class == SHADE_CLASS;
     point.omega_o = -pixel_ray(view, vec2(point.pixel));
+    point.is_seen = true; // see facing_normal
     if (HAS_TANGENT) {
         mat3 frame = unpack_frame(surface);
         float handedness = dot(cross(frame[2], frame[0]), frame[1]);
@@ -118,6 +124,7 @@ mat3 lobe_frame(mat3 frame, LobeRecord record) {
 // The only way into the picture.
 void store_radiance(PointToShade point, vec3 radiance, float alpha, uint pass_index) {
     if (!point.is_mine) return;
+    if (SOURCE == SOURCE_POINTS && !point.is_seen) radiance = vec3(0.0);
     radiance_out[point.index] = vec4(stop_non_finite(radiance, point.index, pass_index), alpha);
 }
 

@@ -27,6 +27,7 @@ DOCTOR_EXAMPLES = """\
 examples:
   burnish doctor
   burnish doctor --device llvmpipe
+  burnish doctor --hard-cases --lookup both -o hard-cases.md
 """
 DEFAULT_SAMPLER = "regular:14"
 SAMPLER_HELP = (
@@ -159,4 +160,17 @@ def make_parser() -> argparse.ArgumentParser:
 
     doctor = command("doctor", "say what is missing here and how to install it", DOCTOR_EXAMPLES)
     doctor.add_argument("--device", metavar="NAME", help="part of a Vulkan device's name (default: the best)")
+    doctor.add_argument(
+        "--hard-cases",
+        action="store_true",
+        help="measure the worst inputs against their bounds: takes minutes on a CPU",
+    )
+    doctor.add_argument(
+        "--lookup",
+        choices=("auto", "sampler", "software", "both"),
+        help="how the hard cases read maps (default: auto)",
+    )
+    doctor.add_argument(
+        "-o", "--output", metavar="FILE", help="also write the table of hard cases as Markdown"
+    )
     return parser

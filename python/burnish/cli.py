@@ -172,8 +172,20 @@ def run_doctor(options: argparse.Namespace) -> int:
     """``burnish doctor``: 0 when this machine can render, else 1."""
     from burnish.doctor import examine
 
-    report = examine(options.device or "")
+    if (options.output or options.lookup) and not options.hard_cases:
+        raise ValueError("--hard-cases: expected it beside --output and --lookup")
+    path = Path(options.output) if options.output else None
+    if path is not None and not path.parent.is_dir():
+        raise ValueError(f"{path}: expected an existing folder, got {path.parent}")
+    wanted = (options.lookup or "auto") if options.hard_cases else ""
+    with progress_bar("hard cases") as advance:
+        report = examine(options.device or "", hard_cases=wanted, progress=advance)
     print(report)
+    if path is not None and report.hard_cases:
+        from burnish.hardcases import CASES, page
+
+        path.write_text(page(report.hard_cases, CASES), encoding="utf-8")
+        print(f"wrote {path}")
     return 0 if report.can_render else 1
 
 

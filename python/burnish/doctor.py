@@ -4,6 +4,7 @@ import ctypes
 import os
 import platform
 import re
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from importlib import metadata
 from pathlib import Path
@@ -13,8 +14,10 @@ from burnish._extension import INSTALL_LOADER, load_failure
 
 if TYPE_CHECKING:
     from burnish import Device
+    from burnish.hardcases import Table
 
 Status = Literal["ok", "note", "missing", "failed"]
+Progress = Callable[[float, str], None]
 
 INSTALL_DRIVER = "sudo apt-get install mesa-vulkan-drivers"
 INSTALL_LAYERS = "sudo apt-get install vulkan-validationlayers"
@@ -43,9 +46,12 @@ class DoctorReport:
     ----------
     sections : dict
         Findings under headings, in order.
+    hard_cases : list of Table
+        The tables of hard cases, where they were asked for.
     """
 
     sections: dict[str, list[Finding]] = field(default_factory=dict)
+    hard_cases: list["Table"] = field(default_factory=list)
 
     @property
     def findings(self) -> list[Finding]:
@@ -58,7 +64,7 @@ class DoctorReport:
         return all(finding.status in ("ok", "note") for finding in self.findings)
 
     def __str__(self) -> str:
-        lines = []
+        lines = [line for table in self.hard_cases for line in (str(table), "")]
         for title, findings in self.sections.items():
             lines += [f"{title}:", *map(str, findings), ""]
         if self.can_render:
@@ -157,7 +163,34 @@ def _chosen(device: "Device") -> list[Finding]:
     return findings
 
 
-def examine(name: str = "", device: "Device | None" = None) -> DoctorReport:
+def _hard_cases(device: "Device", lookup: str, progress: Progress | None) -> "list[Table]":
+    """Tables of hard cases on the device, and with other lookups on others of the same name."""
+    from burnish._core import Device
+    from burnish.hardcases import run
+
+    lookups = {"auto": [device.lookup], "both": ["sampler", "software"]}.get(lookup, [lookup])
+    devices = [device if device.lookup == one else Device(name=device.name, lookup=one) for one in lookups]
+    tables: list[Table] = []
+    for one in devices:
+
+        def advance(share: float, step: str, done: int = len(tables)) -> None:
+            if progress is not None:
+                progress((done + share) / len(devices), step)
+
+        tables.append(run(one, progress=advance))
+    return tables
+
+
+def _judge(table: "Table") -> Finding:
+    return Finding(f"lookup {table.lookup}", "failed" if table.failures else "ok", table.summary)
+
+
+def examine(
+    name: str = "",
+    device: "Device | None" = None,
+    hard_cases: str = "",
+    progress: Progress | None = None,
+) -> DoctorReport:
     """Examine this machine as far as it goes: each step needs the one before.
 
     Parameters
@@ -166,6 +199,10 @@ def examine(name: str = "", device: "Device | None" = None) -> DoctorReport:
         Part of the name of the device to try; empty for the best one.
     device : Device or None
         An open device to try instead.
+    hard_cases : str
+        Measure the table of hard cases too, with maps read by "auto", "sampler", "software" or "both".
+    progress : callable or None
+        Called with the share of the hard cases that is done, 0..1, and the case's name.
     """
     report = DoctorReport({"machine": _machine(), "Python packages": _packages()})
     report.sections["Vulkan"] = vulkan = [_loader(), _validation_layer()]
@@ -189,6 +226,9 @@ def examine(name: str = "", device: "Device | None" = None) -> DoctorReport:
         device = device or Device(name=name)
         report.sections["chosen device"] = _chosen(device)
         report.sections["self-test"] = run_self_test(device)
+        if hard_cases:
+            report.hard_cases = _hard_cases(device, hard_cases, progress)
+            report.sections["hard cases"] = [_judge(table) for table in report.hard_cases]
     except VulkanError as error:
         report.sections.setdefault("self-test", []).append(
             Finding("device", "failed", " ".join(str(error).split()))
@@ -199,13 +239,20 @@ def examine(name: str = "", device: "Device | None" = None) -> DoctorReport:
     return report
 
 
-def doctor(device: "Device | None" = None) -> DoctorReport:
+def doctor(
+    device: "Device | None" = None, hard_cases: bool = False, progress: Progress | None = None
+) -> DoctorReport:
     """Look for what is missing on this machine, and try the engine on cases with known answers.
 
     Parameters
     ----------
     device : Device or None
         The device to try; None for the best one.
+    hard_cases : bool
+        Also measure the table of hard cases, ``report.hard_cases``: minutes on a CPU.
+    progress : callable or None
+        Called with the share of the hard cases that is done, 0..1, and the case's name; an exception that it
+        raises stops them.
 
     Returns
     -------
@@ -214,4 +261,4 @@ def doctor(device: "Device | None" = None) -> DoctorReport:
         features, hard cases and the rate of samples, and for what is missing the command that installs it.
         ``report.can_render`` is the verdict.
     """
-    return examine(device=device)
+    return examine(device=device, hard_cases="auto" if hard_cases else "", progress=progress)

@@ -65,11 +65,13 @@ def shade(
     sampler : Regular, Importance, Matched, Prefiltered or Reference
         How the lobes meet the light.
     normals : (n, 3) float32
-        Unit vectors, world frame, C-contiguous.
+        World frame, C-contiguous, of any length but 0.
     tangents : (n, 3) float32
-        Need not be orthogonal to the normals; one along its normal is replaced by some perpendicular one.
+        Of any length. Need not be orthogonal to the normals; one along its normal, or of length 0, is
+        replaced by some perpendicular one.
     views : (n, 3) float32
-        Unit vectors from the points toward the eye. A point seen from behind is black.
+        From the points toward the eye, of any length but 0. A point seen from behind is black; a cosine of
+        the view below 1e-4 counts as 1e-4.
     filter : "box", "gauss4" or "gauss6"
         Reduction filter of the environment's pyramid.
     device : Device or None

@@ -219,7 +219,7 @@ TEST(Tangents, NeedTextureCoordinates) {
 
 TEST(Material, RangesAreNamed) {
     EXPECT_EQ(message_of([] { validate(KurtLobe{.roughness = glm::vec2(0.0f)}); }),
-              "roughness: expected 0.001..1, got 0");
+              "roughness: expected 1e-06..1, got 0");
     Material material;
     material.lobes.resize(2);
     material.lobes[1].alpha = 1.5f;

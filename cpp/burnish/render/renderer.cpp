@@ -31,6 +31,13 @@ std::vector<T> read_buffer(const vulkan::Buffer& buffer, size_t count) {
     return result;
 }
 
+/// In double: squares of the longest and shortest float32 vectors fit. Zero where there is no direction.
+glm::vec3 unit_or_zero(const glm::vec3& vector) {
+    const glm::dvec3 wide(vector);
+    const double length = glm::length(wide);
+    return length > 0.0 ? glm::vec3(wide / length) : glm::vec3(0.0f);
+}
+
 void add_stopped(Report& report, const vulkan::Buffer& counters) {
     static constexpr std::array<const char*, shared::GUARD_COUNT> passes = {"shade", "background",
                                                                             "reference"};
@@ -264,8 +271,9 @@ std::vector<glm::vec3> Renderer::shade_points(const std::shared_ptr<const Enviro
 
     std::vector<shared::SurfacePoint> records(count);
     for (size_t k = 0; k < count; ++k)
-        records[k] = {glm::vec4(points.normals[k], 0.0f), glm::vec4(points.tangents[k], 1.0f),
-                      glm::vec4(glm::normalize(points.views[k]), 0.0f)};
+        records[k] = {glm::vec4(unit_or_zero(points.normals[k]), 0.0f),
+                      glm::vec4(unit_or_zero(points.tangents[k]), 1.0f),
+                      glm::vec4(unit_or_zero(points.views[k]), 0.0f)};
     const VkBufferUsageFlags storage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT;
     const vulkan::Buffer point_buffer =
         vulkan::make_buffer(device_, std::as_bytes(std::span(records)), storage);

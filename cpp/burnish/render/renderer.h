@@ -30,12 +30,13 @@ struct RenderSettings {
     Progress progress;
 };
 
-/// Points to shade from outside, `count` each.
+/// Points to shade from outside, `count` vectors each, of any length: they are normalised where they are
+/// taken over. A point whose normal or view is zero is black.
 struct ShadePoints {
-    std::span<const glm::vec3> normals; ///< unit
+    std::span<const glm::vec3> normals;
     std::span<const glm::vec3>
         tangents; ///< not parallel to the normal, else a frame of the engine's choice is used
-    std::span<const glm::vec3> views; ///< toward the eye; normalised here
+    std::span<const glm::vec3> views; ///< toward the eye
 };
 
 /// Keeps what later frames can use again: pipelines, scenes, maps, tables. One call at a time; calls from

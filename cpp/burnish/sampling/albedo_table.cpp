@@ -13,7 +13,8 @@ constexpr uint32_t WIDTH_NODES = 33;
 constexpr int RADII = 24;
 constexpr int AZIMUTHS = 16;        ///< in each quarter
 constexpr double LAST_RADIUS = 6.0; ///< q = exp(-36): nothing of the lobe lies beyond
-constexpr double LEAST_COS_O = 1e-4;
+constexpr double LEAST_COS_O =
+    1e-6; ///< of nodes: below what kernels ask for, so that none stands in for another
 
 /// Nodes and weights of an integral over [0, 1].
 template <int count>

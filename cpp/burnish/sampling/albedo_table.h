@@ -15,11 +15,11 @@ using shared::ALBEDO_COS_NODES;
 /// E(omega_o) = weight (r0 E1 + (1 - r0) Es) cos_o^-alpha with
 ///   E1 = int D cos_i^(1-alpha) dh,   Es = int D (1 - o.h)^5 cos_i^(1-alpha) dh   over {h : o.h > 0, cos_i >
 ///   0}.
-/// Without cos_o^-alpha both stay bounded and smooth. Linear interpolation: node i of the cosine is at
-/// cos_o = (i/(ALBEDO_COS_NODES-1))^2. How E depends on the azimuth of omega_o is how it depends on the
-/// lobe's width as seen from there, w = |(ox mx, oy my)|/|(ox, oy)|: node j is at w = low + (high - low)
-/// (j/(width_nodes-1))^2 between the two slopes. Within 1e-3 of E for aspects up to 6 (3.4e-3 at an aspect of
-/// 100), from 3 degrees above the horizon.
+/// Without cos_o^-alpha both stay bounded and smooth. Node i of the cosine is at cos_o =
+/// (i/(ALBEDO_COS_NODES-1))^2; interpolation between two is linear in cos_o for alpha = 0, in its root else.
+/// How E depends on the azimuth of omega_o is how it depends on the lobe's width as seen from there, w = |(ox
+/// mx, oy my)|/|(ox, oy)|: node j is at w = low + (high - low) (j/(width_nodes-1))^2 between the two slopes.
+/// Within 1e-3 of E for aspects up to 6 (3.4e-3 at an aspect of 100), from 3 degrees above the horizon.
 struct AlbedoTable {
     uint32_t width_nodes = 1;       ///< 1 for isotropic lobes
     std::vector<glm::vec2> entries; ///< [width][cos] -> (E1, Es)

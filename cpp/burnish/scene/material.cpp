@@ -32,8 +32,8 @@ void validate(const MetallicRoughness& source) {
 } // namespace
 
 void validate(const KurtLobe& lobe, const std::string& prefix) {
-    require_range(prefix + "roughness", lobe.roughness.x, MIN_ROUGHNESS, 1.0f);
-    require_range(prefix + "roughness", lobe.roughness.y, MIN_ROUGHNESS, 1.0f);
+    require_range(prefix + "roughness", lobe.roughness.x, MIN_LOBE_ROUGHNESS, 1.0f);
+    require_range(prefix + "roughness", lobe.roughness.y, MIN_LOBE_ROUGHNESS, 1.0f);
     require_unit(prefix + "r0", lobe.r0);
     require_range(prefix + "alpha", lobe.alpha, 0.0f, 1.0f);
     require_non_negative(prefix + "weight", lobe.weight);

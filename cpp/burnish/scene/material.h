@@ -17,7 +17,7 @@ constexpr uint32_t MAX_LOBES = 4;
 /// One Kurt lobe (maths: section 1). f = weight F(u) D / (4 (o.h) ((i.n)(o.n))^alpha), F(u) = r0 + (1 - r0)(1
 /// - u)^5.
 struct KurtLobe {
-    glm::vec2 roughness{0.2f}; ///< Beckmann slopes along tangent and bitangent, in [MIN_ROUGHNESS, 1]
+    glm::vec2 roughness{0.2f}; ///< Beckmann slopes along tangent and bitangent, in [MIN_LOBE_ROUGHNESS, 1]
     glm::vec3 r0{1.0f};        ///< reflectance at normal incidence, in [0, 1]; 1 switches Fresnel off
     float alpha = 0.0f;        ///< grazing exponent, in [0, 1]
     glm::vec3 weight{1.0f};    ///< colour, >= 0
@@ -30,8 +30,10 @@ struct KurtLobe {
     bool has_fresnel() const { return r0 != glm::vec3(1.0f); }
 };
 
-/// Below this slope a lobe is a mirror to any map the engine can hold.
+/// Below this slope a lobe is a mirror to any map the engine can hold: descriptions map to nothing narrower.
 constexpr float MIN_ROUGHNESS = 1e-3f;
+/// What a lobe may have: its square's square, in areas and variances, is still a normal float32.
+constexpr float MIN_LOBE_ROUGHNESS = 1e-6f;
 
 enum class AlphaMode { opaque, mask, blend };
 

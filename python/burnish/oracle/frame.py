@@ -5,6 +5,8 @@ import numpy.typing as npt
 
 from .arrays import Array, as_array, dot, normalize
 
+#: Pixels see their shading normals at least at this cosine.
+LEAST_FACING = 1e-3
 #: A tangent whose part across the normal is shorter than this share of its length counts as parallel to it:
 #: in float32 most of what is left below is rounding.
 PARALLEL_LIMIT = 1e-5
@@ -52,6 +54,19 @@ def frame_from_tangent(n: npt.ArrayLike, t: npt.ArrayLike) -> tuple[Array, Array
     across = normalize(across - dot(across, n)[..., None] * n)
     tangent = np.where(usable, across, orthonormal_basis(n)[0])
     return tangent, np.cross(n, tangent)
+
+
+def facing_normal(n: npt.ArrayLike, omega_o: npt.ArrayLike) -> Array:
+    """Bend a unit normal that interpolation turned away from the eye until it just faces it.
+
+    Parameters
+    ----------
+    n, omega_o : (..., 3)
+        Unit vectors.
+    """
+    n, omega_o = as_array(n), as_array(omega_o)
+    cos_o = dot(n, omega_o)[..., None]
+    return np.where(cos_o < LEAST_FACING, normalize(n + (LEAST_FACING - cos_o) * omega_o), n)
 
 
 def longitude_frame(n: npt.ArrayLike) -> tuple[Array, Array]:

@@ -7,6 +7,8 @@ from .arrays import Array, as_array, normalize
 
 # Sines below this have no azimuth.
 _SMALL = 1e-9
+# Squared singular values closer than this share of their sum are equal but for rounding.
+_ROUND = 1e-12
 
 
 def lobe_map(omega_o: npt.ArrayLike, mx: float, my: float) -> tuple[Array, Array, Array, Array]:
@@ -39,7 +41,8 @@ def lobe_map(omega_o: npt.ArrayLike, mx: float, my: float) -> tuple[Array, Array
 def principal_axes(matrix: npt.ArrayLike) -> tuple[Array, Array, Array, Array]:
     """Singular values a >= b of 2 x 2 matrices, and the first right singular vector (v1, v2).
 
-    The second one is (-v2, v1), so that mixtures keep their handedness.
+    The second one is (-v2, v1), so that mixtures keep their handedness. Of equal singular values every vector
+    would do: then it is the matrix's first row, for `lobe_map` the plane of view.
     """
     matrix = as_array(matrix)
     m00, m01, m10, m11 = (matrix[..., i, j] for i in (0, 1) for j in (0, 1))
@@ -47,5 +50,6 @@ def principal_axes(matrix: npt.ArrayLike) -> tuple[Array, Array, Array, Array]:
     half = np.hypot(0.5 * (p - t), r)
     a = np.sqrt(0.5 * (p + t) + half)
     b = np.abs(m00 * m11 - m01 * m10) / a
-    angle = 0.5 * np.arctan2(2 * r, p - t)
+    is_round = half <= _ROUND * (p + t)
+    angle = np.where(is_round, np.arctan2(m01, m00), 0.5 * np.arctan2(2 * r, p - t))
     return a, b, np.cos(angle), np.sin(angle)

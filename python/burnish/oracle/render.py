@@ -10,6 +10,7 @@ import numpy.typing as npt
 from .arrays import Array, as_array, dot, normalize
 from .cube_map import pad_cube, sample_cube, texel_directions
 from .estimator import shade_diffuse
+from .frame import facing_normal
 from .raster import Camera, Hits, Object, Triangles, camera_rays, cast_rays, gather_triangles, interpolate
 from .shading import shade
 from .spherical_harmonics import project_cube
@@ -77,7 +78,8 @@ def render(
             own = owner == index
             material = objects[index].material
             pixels = seen[own]
-            in_map = (v @ turn for v in (normal[pixels], tangents[own], views[own]))
+            facing = facing_normal(normal[pixels], views[own])
+            in_map = (v @ turn for v in (facing, tangents[own], views[own]))
             lit = shade(env_levels, material, sampler, *in_map)
             emitted = as_array(getattr(material, "emissive", 0.0))
             color[pixels] = gain * (lit - emitted) + emitted

@@ -7,7 +7,7 @@ import numpy as np
 import numpy.typing as npt
 
 from .albedo import directional_albedo
-from .arrays import Array, as_array
+from .arrays import Array, as_array, dot
 from .cube_map import PaddedCube, pad_cube
 from .estimator import local_frame, shade_diffuse, shade_importance, shade_regular
 from .importance import importance_half_vectors
@@ -66,6 +66,8 @@ def shade(
 ) -> Array:
     """Radiance toward the eye: diffuse part by spherical harmonics, lobes by the sampler, and emission.
 
+    Points seen from behind are black.
+
     Parameters
     ----------
     env_levels : list of (6, n, n, 3)
@@ -95,4 +97,5 @@ def shade(
         for lobe in material.lobes:
             light = shade_one(cube, normals, tangents, views, lobe, sampler)
             total = total + light * conserving_scale(normals, tangents, views, lobe)
-    return total + as_array(getattr(material, "emissive", 0.0))
+    seen = dot(normals, views)[..., None] > 0
+    return np.where(seen, total + as_array(getattr(material, "emissive", 0.0)), 0.0)

@@ -14,9 +14,9 @@ TRIANGLES = np.array([[0, 1, 2], [0, 2, 3]], np.uint32)
 @pytest.mark.parametrize(
     ("arguments", "text"),
     [
-        ({"roughness": 0.0}, r"roughness: expected 0\.001\.\.1, got 0"),
-        ({"roughness": (0.1, 1.5)}, r"roughness: expected 0\.001\.\.1, got 1\.5"),
-        ({"roughness": float("nan")}, r"roughness: expected 0\.001\.\.1, got nan"),
+        ({"roughness": 0.0}, r"roughness: expected 1e-06\.\.1, got 0"),
+        ({"roughness": (0.1, 1.5)}, r"roughness: expected 1e-06\.\.1, got 1\.5"),
+        ({"roughness": float("nan")}, r"roughness: expected 1e-06\.\.1, got nan"),
         ({"r0": (0.5, 0.5, 1.5)}, r"r0: expected 0\.\.1, got 1\.5"),
         ({"alpha": -0.5}, r"alpha: expected 0\.\.1, got -0\.5"),
         ({"weight": -1}, r"weight: expected finite numbers >= 0, got -1"),
