@@ -1,6 +1,7 @@
 """Fixtures every test may ask for."""
 
 import os
+import signal
 from pathlib import Path
 
 # Read by the library when a device is made: a validation error then fails the test that caused it.
@@ -8,6 +9,10 @@ os.environ.setdefault("BURNISH_VALIDATION", "1")
 
 import numpy as np
 import pytest
+
+# A shell that starts the tests in the background has them, and the commands they interrupt, ignore Ctrl-C.
+if signal.getsignal(signal.SIGINT) == signal.SIG_IGN:
+    signal.signal(signal.SIGINT, signal.default_int_handler)
 
 REPOSITORY = Path(__file__).resolve().parents[2]
 
