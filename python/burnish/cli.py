@@ -183,8 +183,9 @@ def run_doctor(options: argparse.Namespace) -> int:
     print(report)
     if path is not None and report.hard_cases:
         from burnish.hardcases import CASES, page
+        from burnish.images.files import write_text
 
-        path.write_text(page(report.hard_cases, CASES), encoding="utf-8")
+        write_text(path, page(report.hard_cases, CASES))
         print(f"wrote {path}")
     return 0 if report.can_render else 1
 

@@ -91,14 +91,6 @@ KNOWN_FAILURES = (
         ("faces of 2048 texels",),
     ),
     KnownFailure("swiftshader", "sampler", (*SAMPLERS, *ONCE), _STALE),
-    KnownFailure("swiftshader", "software", ("matched", "prefiltered"), f"levels made with it: {_STALE}"),
-    KnownFailure(
-        "swiftshader",
-        "software",
-        ONCE,
-        f"levels made with it: {_STALE}",
-        ("constant, levels of prefiltered", "constant, levels of matched"),
-    ),
 )
 
 

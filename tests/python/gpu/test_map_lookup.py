@@ -15,6 +15,8 @@ from engine_support import directions, random_points, smooth_environment_faces, 
 # Relative to maps of order 1: float32 places a lookup within 1e-5 of a texel, and neighbouring texels of the
 # smooth maps here differ by less than their value.
 LIMIT = 2e-5
+# Levels that a lookup makes are rounded to halves: where two lookups differ in the last digit, by one step.
+STEP = 2.0**-11
 
 
 @pytest.fixture(scope="module")
@@ -66,17 +68,17 @@ def test_software_lookup_equals_oracle(software, rng, face_size, roughness):
 
 
 @pytest.mark.parametrize(
-    "sampler",
+    ("sampler", "limit"),
     [
-        burnish.Regular(14),
-        burnish.Importance(64),
-        burnish.Matched(5),
-        burnish.Prefiltered(),
-        burnish.Reference(0.05),
+        (burnish.Regular(14), LIMIT),
+        (burnish.Importance(64), LIMIT),
+        (burnish.Matched(5), STEP),
+        (burnish.Prefiltered(), STEP),
+        (burnish.Reference(0.05), LIMIT),
     ],
     ids=lambda one: type(one).__name__,
 )
-def test_both_lookups_give_the_same_picture(software, sampler_device, rng, sampler):
+def test_both_lookups_give_the_same_picture(software, sampler_device, rng, sampler, limit):
     environment = burnish.Environment.from_faces(smooth_environment_faces(64))
     material = burnish.Material(lobes=[burnish.KurtLobe(roughness=(0.3, 0.1), r0=0.04, alpha=0.5)])
     points = random_points(rng, 2000)
@@ -84,7 +86,7 @@ def test_both_lookups_give_the_same_picture(software, sampler_device, rng, sampl
         burnish.shade(environment, material, sampler, *points, device=device)
         for device in (software, sampler_device)
     )
-    np.testing.assert_allclose(one, other, rtol=LIMIT, atol=LIMIT * one.mean())
+    np.testing.assert_allclose(one, other, rtol=limit, atol=limit * one.mean())
 
 
 def test_several_maps_share_one_buffer(software, sampler_device):
