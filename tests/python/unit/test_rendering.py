@@ -1,5 +1,7 @@
 """Arguments of `shade`, `render` and `capture` are checked before any device is asked for."""
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 
@@ -104,9 +106,9 @@ def test_the_default_device_is_opened_once(monkeypatch):
 
     opened = []
     monkeypatch.setattr(_device, "_device", None)
-    monkeypatch.setattr(_device, "Device", lambda: opened.append(1) or object())
+    monkeypatch.setattr(_device, "Device", lambda: opened.append(1) or SimpleNamespace(is_lost=False))
     with ThreadPoolExecutor(8) as pool:
-        found = set(pool.map(lambda _: _device.default_device(), range(64)))
+        found = {id(one) for one in pool.map(lambda _: _device.default_device(), range(64))}
     assert len(found) == len(opened) == 1
 
 
