@@ -33,26 +33,44 @@ class Picture:
         return self.format in ("OpenEXR", "Radiance")
 
 
+# Deflate packs at most so many bytes into one.
+_DEFLATE_RATIO = 1032
+
+
+def _require_data(path: str | os.PathLike[str], file: Image.Image) -> None:
+    """Refuse a PNG that is too short for its size: Pillow would make a black picture of it, however large."""
+    least_bytes = file.height * (1 + file.width / 8)  # a bit a pixel, a filter a row
+    size = os.path.getsize(path)
+    if size * _DEFLATE_RATIO < least_bytes:
+        raise file_error(
+            path, f"PNG: expected data for {file.width} x {file.height} pixels, got {size} bytes"
+        )
+
+
 def _read_display_referred(path: str | os.PathLike[str], name: str) -> NDArray[np.float32]:
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")  # Pillow warns of sizes that are checked here, and of broken Exif
             with Image.open(path, formats=[name]) as file:
                 require_pixels(path, name, file.height, file.width)
+                if name == "PNG":
+                    _require_data(path, file)
                 picture: Image.Image = file
-                scale = 65535.0 if picture.mode.startswith("I") else 255.0
-                if scale == 255.0:
+                largest = 65535 if picture.mode.startswith("I") else 255
+                if largest == 255:
                     has_alpha = "A" in picture.getbands() or "transparency" in picture.info
                     picture = picture.convert("RGBA" if has_alpha else "RGB")
-                encoded = np.asarray(picture, np.float32) / scale
+                encoded = np.asarray(picture)
     except Exception as error:  # every Pillow plugin raises its own kinds
         if isinstance(error, FileNotFoundError | PermissionError) or str(error).startswith(os.fspath(path)):
             raise
         raise file_error(path, f"{name} cannot be decoded, it is damaged or too large ({error})") from error
     if encoded.ndim == 2:
         encoded = np.repeat(encoded[..., None], 3, axis=2)
-    encoded[..., :3] = srgb_decode(encoded[..., :3])
-    return encoded
+    shares = np.arange(largest + 1, dtype=np.float32) / np.float32(largest)
+    pixels = shares[encoded]
+    pixels[..., :3] = srgb_decode(shares)[encoded[..., :3]]
+    return pixels
 
 
 def read_picture(path: str | os.PathLike[str]) -> Picture:

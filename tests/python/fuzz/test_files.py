@@ -7,6 +7,7 @@ import base64
 import json
 import os
 import random
+import struct
 import subprocess
 import sys
 
@@ -148,4 +149,15 @@ def test_a_picture_of_another_kind_is_named(tmp_path):
     path = tmp_path / "picture.exr"
     path.write_bytes(b"\xff\xfe")
     with pytest.raises(FileError, match="expected an OpenEXR, Radiance, PNG or JPEG picture, got ff fe"):
+        read_image(path)
+
+
+def test_a_png_too_short_for_its_size_is_refused(tmp_path):
+    """A hundred bytes that declare 49 million pixels took minutes and gigabytes to become black."""
+    small = file_seeds.png(0, 1, False)
+    header = struct.pack(">IIBBBBB", 5, 9_764_869, 1, 0, 0, 0, 0)
+    data = file_seeds.png_chunk(b"IHDR", header) + small[8 + 25 :]
+    path = tmp_path / "picture.png"
+    path.write_bytes(small[:8] + data)
+    with pytest.raises(FileError, match=r"PNG: expected data for 5 x 9764869 pixels, got \d+ bytes"):
         read_image(path)
