@@ -1,7 +1,6 @@
 #include "burnish/render/prefilter.h"
 
-#include <bit>
-
+#include "burnish/render/shade_pass.h"
 #include "burnish/sampling/prefilter_table.h"
 #include "burnish/vulkan/transfer.h"
 #include "shared/constants.h"
@@ -37,9 +36,8 @@ const vulkan::ComputePipeline& Prefilter::pipeline(PrefilterKernel kernel, uint3
     if (found != pipelines_.end()) return found->second;
     auto constants = vulkan::SpecializationConstants{}.set(shared::SPEC_PREFILTER_IS_SPHERICAL,
                                                            kernel == PrefilterKernel::spherical);
-    if (packed_size > 0)
-        constants.set(shared::SPEC_LOOKUP, shared::LOOKUP_SOFTWARE)
-            .set(shared::SPEC_LAST_LEVEL, std::countr_zero(packed_size));
+    render::add_lookup_constants(
+        constants, {packed_size, {}, packed_size > 0 ? MapLookup::software : MapLookup::sampler});
     return pipelines_.emplace(key, vulkan::ComputePipeline(device_, shader_, constants)).first->second;
 }
 
