@@ -68,7 +68,7 @@ def _read_display_referred(path: str | os.PathLike[str], name: str) -> NDArray[n
     if encoded.ndim == 2:
         encoded = np.repeat(encoded[..., None], 3, axis=2)
     shares = np.arange(largest + 1, dtype=np.float32) / np.float32(largest)
-    pixels = shares[encoded]
+    pixels: NDArray[np.float32] = shares[encoded]
     pixels[..., :3] = srgb_decode(shares)[encoded[..., :3]]
     return pixels
 
