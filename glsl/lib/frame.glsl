@@ -26,6 +26,15 @@ mat3 frame_from_tangent(vec3 n, vec3 t, float handedness) {
     return mat3(tangent, handedness * cross(n, tangent), n);
 }
 
+// The frame of the unit vector `n` whose tangent is the unit vector `t`, bent into the surface; `spare` serves where t is along n.
+// Unit t and n need one step of what frame_from_tangent does in two.
+mat3 frame_from_unit_tangent(vec3 n, vec3 t, vec3 spare, float handedness) {
+    float along = dot(n, t);
+    vec3 across = 1.0 - along * along > 1e-4 ? t - along * n : spare - dot(n, spare) * n;
+    vec3 tangent = across * inversesqrt(max(dot(across, across), 1e-36));
+    return mat3(tangent, handedness * cross(n, tangent), n);
+}
+
 // Tangent along growing longitude about y, cross(y, n): smooth but at the two poles, where orthonormal_basis serves.
 mat3 longitude_frame(vec3 n) {
     float length2 = n.x * n.x + n.z * n.z;
@@ -82,13 +91,19 @@ bool has_surface(uvec2 surface) { return (surface.y & 0xffffu) != 0u; }
 uint unpack_material(uvec2 surface) { return (surface.y & 0xffffu) - 1u; }
 vec3 unpack_normal(uvec2 surface) { return octahedral_decode(unpackSnorm2x16(surface.x)); }
 
-mat3 unpack_frame(uvec2 surface) {
-    vec3 normal = unpack_normal(surface);
-    mat3 basis = orthonormal_basis(normal);
+struct PackedFrame {
+    vec3 normal, tangent;
+    float handedness;
+};
+
+PackedFrame unpack_frame(uvec2 surface) {
+    PackedFrame frame;
+    frame.normal = unpack_normal(surface);
+    mat3 basis = orthonormal_basis(frame.normal);
     vec2 t = diamond_decode(float(surface.y >> 17) / 16384.0 - 1.0);
-    vec3 tangent = t.x * basis[0] + t.y * basis[1];
-    float handedness = (surface.y & 0x10000u) != 0u ? -1.0 : 1.0;
-    return mat3(tangent, handedness * cross(normal, tangent), normal);
+    frame.tangent = t.x * basis[0] + t.y * basis[1];
+    frame.handedness = (surface.y & 0x10000u) != 0u ? -1.0 : 1.0;
+    return frame;
 }
 
 #endif

@@ -22,6 +22,10 @@ void run() {
     case PROBE_HAS_SURFACE: put(has_surface(surface) ? 1u : 0u); break;
     case PROBE_UNPACK_MATERIAL: put(unpack_material(surface)); break;
     case PROBE_UNPACK_NORMAL: put(unpack_normal(surface)); break;
-    case PROBE_UNPACK_FRAME: put(unpack_frame(surface)); break;
+    case PROBE_UNPACK_FRAME: {
+        PackedFrame frame = unpack_frame(surface);
+        put(mat3(frame.tangent, frame.handedness * cross(frame.normal, frame.tangent), frame.normal));
+        break;
+    }
     }
 }

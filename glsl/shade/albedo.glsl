@@ -6,7 +6,7 @@
 #include "shade/bindings.glsl"
 
 layout(constant_id = SPEC_CONSERVES_ENERGY) const bool CONSERVES_ENERGY = false;
-layout(binding = BINDING_ALBEDO_TABLE, rg32f) uniform readonly imageBuffer albedo_table;
+layout(binding = BINDING_ALBEDO_TABLE, rgba32f) uniform readonly imageBuffer albedo_table;
 
 // (E1, Es) at the lobe's view: see AlbedoTable.
 vec2 albedo_row(uint begin, float cos_o) {
@@ -15,8 +15,8 @@ vec2 albedo_row(uint begin, float cos_o) {
     float share = x - i;
     // Of a narrow lobe E1 is cos_o^(1-alpha): linear in cos_o, x squared, for alpha 0, and in x for alpha .5.
     if (ALPHA == ALPHA_ZERO) share *= (x + i) / (2.0 * i + 1.0);
-    int entry = int(begin) + int(i);
-    return mix(imageLoad(albedo_table, entry).xy, imageLoad(albedo_table, entry + 1).xy, share);
+    vec4 nodes = imageLoad(albedo_table, int(begin) + int(i)); // this and the next
+    return mix(nodes.xy, nodes.zw, share);
 }
 
 vec2 fixed_albedo(uint begin, uint width_nodes, vec3 local_o, vec2 roughness) {

@@ -55,6 +55,7 @@ LobeRecord load_lobe(uint index) {
     row = ROW(lobe_rows, LOBE, 4);
     lobe.conserves_energy = row.x;
     lobe.variance_share = uintBitsToFloat(row.y);
+    lobe.view_azimuths = row.z;
     return lobe;
 }
 

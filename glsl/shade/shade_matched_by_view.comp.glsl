@@ -1,4 +1,4 @@
-// Round lobes by the variance-matched sampler, placed for every view when the material changed.
+// Lobes by the variance-matched sampler, placed for every view when the material changed.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
@@ -6,5 +6,5 @@
 #include "shade/shade.glsl"
 
 vec3 look_up_lobe(LobeView v, SurfaceLobe lobe, LobeRecord record, vec2 albedo, MapRecord map) {
-    return finish_lobe(v, gather_by_view(v, record.table_begin), lobe.specular, lobe.grazing, albedo);
+    return finish_lobe(v, gather_by_view(v, record.table_begin, record.view_azimuths), lobe.specular, lobe.grazing, albedo);
 }

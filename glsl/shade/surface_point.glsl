@@ -66,9 +66,10 @@ PointToShade load_point() {
     point.omega_o = -pixel_ray(view, vec2(point.pixel));
     point.is_seen = true; // see facing_normal
     if (HAS_TANGENT) {
-        mat3 frame = unpack_frame(surface);
-        float handedness = dot(cross(frame[2], frame[0]), frame[1]);
-        point.frame = frame_from_tangent(facing_normal(frame[2], point.omega_o), frame[0], handedness);
+        PackedFrame packed_frame = unpack_frame(surface);
+        vec3 normal = facing_normal(packed_frame.normal, point.omega_o);
+        // Where the normal was bent until it lies along the tangent, the old normal lies in the surface.
+        point.frame = frame_from_unit_tangent(normal, packed_frame.tangent, packed_frame.normal, packed_frame.handedness);
     } else {
         point.frame = longitude_frame(facing_normal(unpack_normal(surface), point.omega_o));
     }

@@ -25,6 +25,10 @@ SHARED_CONST float ALBEDO_LEAST_ROUGHNESS = 0.01f;
 SHARED_CONST uint MATCHED_NODES = 40u;
 SHARED_CONST uint MATCHED_ROWS = 1024u;
 SHARED_CONST float MATCHED_LOG2_LARGEST_RHO = 5.0874628f;
+// Tables of placed samples hold MATCHED_ROWS views of a round lobe, or so many of a brushed one, up to an aspect.
+SHARED_CONST uint MATCHED_BRUSHED_VIEWS = 128u;
+SHARED_CONST uint MATCHED_AZIMUTHS = 257u; // over half a turn, both ends
+SHARED_CONST float MATCHED_MOST_VIEW_ASPECT = 8.0f;
 
 // Suns that may be taken out of one map.
 SHARED_CONST uint MAX_SUNS = 4u;

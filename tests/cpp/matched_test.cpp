@@ -35,7 +35,7 @@ TEST(MatchedTable, RowsAreEvenInTheLogOfTheAspect) {
 }
 
 TEST(MatchedViewTable, AViewAlongTheNormalReflectsAroundIt) {
-    const MatchedLobe lobe{8, 0.2f, 0.5f, 0.04f, 0.96f, true, 64};
+    const MatchedLobe lobe{8, 0.2f, 0.2f, 0.5f, 0.04f, 0.96f, true, 64};
     const std::vector<glm::vec4> table = build_matched_view_table(lobe);
     const uint32_t entries = view_row_entries(lobe);
     ASSERT_EQ(entries, 10u);
@@ -50,6 +50,45 @@ TEST(MatchedViewTable, AViewAlongTheNormalReflectsAroundIt) {
         EXPECT_GE(last[k].w, 0.0f);
     }
     EXPECT_NEAR(glm::length(mean), 0.0f, 1e-4f * weights);
+}
+
+TEST(MatchedViewTable, ViewsFromBothSidesAlongAnAxisHaveTheSameSamples) {
+    const MatchedLobe lobe{.samples = 7, .roughness_x = 0.2f, .roughness_y = 0.075f};
+    const std::vector<glm::vec4> table = build_matched_view_table(lobe);
+    const uint32_t entries = view_row_entries(lobe), last = shared::MATCHED_AZIMUTHS - 1;
+    ASSERT_EQ(table.size(), size_t(shared::MATCHED_BRUSHED_VIEWS) * shared::MATCHED_AZIMUTHS * entries);
+    for (const uint32_t view : {20u, 60u, 127u}) {
+        const glm::vec4* first_row = &table[size_t(view) * shared::MATCHED_AZIMUTHS * entries];
+        const glm::vec4* last_row = first_row + size_t(last) * entries;
+        // The lobe's axes point the other way, and the two components of a pair have changed places.
+        for (uint32_t k = 1; k < 7; k += 2)
+            for (uint32_t j = 0; j < 2; ++j) {
+                const glm::vec4 one = first_row[k + j], other = last_row[k + 1 - j];
+                const bool is_same = glm::distance(one, last_row[k + j] * glm::vec4(-1, -1, 1, 1)) < 1e-5f;
+                EXPECT_TRUE(is_same || glm::distance(one, other * glm::vec4(-1, -1, 1, 1)) < 1e-5f)
+                    << "view " << view << ", sample " << k + j;
+            }
+    }
+}
+
+TEST(MatchedViewTable, ABarelyBrushedLobeHasTheRoundOnesWeights) {
+    const MatchedLobe round{.samples = 5, .roughness_x = 0.3f, .roughness_y = 0.3f};
+    MatchedLobe brushed = round;
+    brushed.roughness_x = 0.3001f;
+    const std::vector<glm::vec4> one = build_matched_view_table(round),
+                                 other = build_matched_view_table(brushed);
+    const uint32_t view = 102; // cos_o = (102/127)^2, between rows of the round lobe's
+    const double root = double(view) / (shared::MATCHED_BRUSHED_VIEWS - 1);
+    const uint32_t row = uint32_t(root * (shared::MATCHED_ROWS - 1) + 0.5);
+    for (const uint32_t azimuth : {0u, 50u, 128u})
+        for (uint32_t k = 0; k < 5; ++k) {
+            const glm::vec4 expected = one[row * 5 + k];
+            const glm::vec4 actual = other[(view * shared::MATCHED_AZIMUTHS + azimuth) * 5 + k];
+            EXPECT_NEAR(actual.z, expected.z, 5e-3f * expected.z)
+                << "azimuth " << azimuth << ", sample " << k;
+            EXPECT_NEAR(actual.w, expected.w, 2e-2f);
+            EXPECT_NEAR(glm::length(glm::vec2(actual)), glm::length(glm::vec2(expected)), 2e-3f);
+        }
 }
 
 TEST(MatchedViewTable, LevelsBelowTheFirstShareItsVariance) {

@@ -120,10 +120,12 @@ std::string describe(const ShadeClass& one, const Scene& scene, const Plan& plan
         text += "; roughness varies over the surface, samples scale with it";
         break;
     case TableForm::matched:
-        text += "; mixtures placed at every point by the lobe's aspect on the map";
+        text += one.traits.has_varying
+                    ? "; roughness varies over the surface, mixtures placed at every point"
+                    : "; mixtures placed at every point: the lobe is very brushed, or there are many";
         break;
     case TableForm::matched_by_view:
-        text += "; round lobes, mixtures placed for every view when the material changes";
+        text += "; mixtures placed for every view when the material changes";
         break;
     case TableForm::prefiltered:
         text += "; one lookup a lobe in a prefiltered map";

@@ -7,6 +7,8 @@
 
 #include "burnish/error.h"
 #include "burnish/plan/effects.h"
+#include "burnish/sampling/matched_table.h"
+#include "burnish/sampling/matched_view_table.h"
 #include "shared/constants.h"
 
 namespace burnish {
@@ -86,16 +88,34 @@ bool fits_into_constants(const Sampler& sampler) {
     return false;
 }
 
-/// Slope from which a component of a mixture bends so much that its mean takes five points instead of two.
-constexpr float WIDE_LOBE = 0.2f;
+/// Entries of brushed lobes' tables by view that a scene may have: 256 MB.
+constexpr uint64_t MOST_VIEW_ENTRIES = 16'000'000;
 
-/// Lookups of round lobes depend on the angle of view alone. Brushed and textured ones are placed at every
-/// point, with as many points a component as the widest lobe needs.
-TableForm matched_form(const Material& material, ShadeTraits& traits) {
+/// Whether the tables by view of all brushed lobes in the scene fit.
+bool fit_view_tables(const Scene& scene, const Plan& plan) {
+    const auto* matched = std::get_if<Matched>(&plan.settings.sampler);
+    if (!matched) return false;
+    uint64_t entries = 0;
+    for (const MaterialInstance& instance : plan.instances)
+        for (const KurtLobe& lobe : scene.materials[instance.material].lobes)
+            if (lobe.is_anisotropic())
+                entries += view_table_entries({.samples = matched->samples,
+                                               .roughness_x = lobe.roughness.x,
+                                               .roughness_y = lobe.roughness.y,
+                                               .has_schlick = lobe.has_fresnel()});
+    return entries <= MOST_VIEW_ENTRIES;
+}
+
+/// Samples depend on the lobe and the view in its frame: they are placed once for every view, unless a
+/// texture varies the lobe, or tables would be too coarse or too large. Then they are placed at every point,
+/// with as many points a component as the widest lobe needs.
+TableForm matched_form(const Material& material, bool fit_tables, ShadeTraits& traits) {
     const auto any = [&](const auto& asks) {
         return std::any_of(material.lobes.begin(), material.lobes.end(), asks);
     };
-    if (!traits.has_varying && !any([](const KurtLobe& lobe) { return lobe.is_anisotropic(); }))
+    if (!traits.has_varying && !any([&](const KurtLobe& lobe) {
+            return lobe.is_anisotropic() && !(fit_tables && fits_view_table(lobe.roughness));
+        }))
         return TableForm::matched_by_view;
     traits.has_wide_components = traits.has_varying || any([](const KurtLobe& lobe) {
                                      return std::min(lobe.roughness.x, lobe.roughness.y) > WIDE_LOBE;
@@ -103,7 +123,8 @@ TableForm matched_form(const Material& material, ShadeTraits& traits) {
     return TableForm::matched;
 }
 
-ShadeTraits traits_of(const Scene& scene, const Plan& plan, const MaterialInstance& instance) {
+ShadeTraits traits_of(const Scene& scene, const Plan& plan, const MaterialInstance& instance,
+                      bool fit_tables) {
     const Material& material = scene.materials[instance.material];
     ShadeTraits traits;
     traits.has_varying = is_varying(material);
@@ -131,7 +152,7 @@ ShadeTraits traits_of(const Scene& scene, const Plan& plan, const MaterialInstan
     traits.has_tangent |= has_texture(material, &MetallicRoughness::anisotropy_texture);
     if (traits.lobe_count == 0 || std::holds_alternative<Reference>(plan.settings.sampler)) return traits;
     if (std::holds_alternative<Matched>(plan.settings.sampler)) {
-        traits.table = matched_form(material, traits);
+        traits.table = matched_form(material, fit_tables, traits);
     } else if (std::holds_alternative<Prefiltered>(plan.settings.sampler)) {
         traits.table = TableForm::prefiltered;
     } else if (traits.has_varying) {
@@ -181,8 +202,9 @@ void share_pipelines(ShadeTraits& traits) {
 
 void add_classes(const Scene& scene, Plan& plan) {
     std::vector<ShadeTraits> traits;
+    const bool fit_tables = fit_view_tables(scene, plan);
     for (const MaterialInstance& instance : plan.instances)
-        traits.push_back(traits_of(scene, plan, instance));
+        traits.push_back(traits_of(scene, plan, instance, fit_tables));
     group(plan, traits, [](ShadeTraits&) {});
     const auto constant_count =
         std::count_if(plan.classes.begin(), plan.classes.end(),

@@ -76,6 +76,7 @@ void Renderer::forget() {
     prefilter_.reset();
     texel_pairs_.reset();
     targets_->clear();
+    tables_.forget_buffers();
 }
 
 Plan Renderer::make_plan(const Scene& scene, const PlanSettings& settings) {

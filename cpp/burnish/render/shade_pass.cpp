@@ -196,7 +196,7 @@ ShadePass::Stage ShadePass::make_stage(Pipelines& pipelines, const std::string& 
     bind_texels(shared::BINDING_MATERIALS, tables_.material_rows);
     bind_texels(shared::BINDING_LOBES, tables_.lobe_rows);
     bind_texels(shared::BINDING_MAP_RECORDS, tables_.map_rows);
-    bind_texels(shared::BINDING_SAMPLE_TABLE, tables_.sample_texels);
+    bind_texels(shared::BINDING_SAMPLE_TABLE, tables_.samples->texels);
     bind_texels(shared::BINDING_ALBEDO_TABLE, tables_.albedo_texels);
     bind_texels(shared::BINDING_MAP_PAIRS, maps && maps->pairs().get() ? maps->pairs() : unused_.rows);
     bind(shared::BINDING_POINTS, inputs_.points ? *inputs_.points : unused_.buffer);

@@ -32,7 +32,7 @@ bool needs_albedo(const Sampler& sampler) {
            std::holds_alternative<Matched>(sampler) || std::holds_alternative<Prefiltered>(sampler);
 }
 
-constexpr size_t MOST_VIEW_TABLES = 64; ///< up to 1.3 MB each
+constexpr uint64_t MOST_KEPT_VIEW_ENTRIES = 32'000'000; ///< 512 MB
 
 float mean(glm::vec3 v) {
     return (v.r + v.g + v.b) / 3.0f;
@@ -51,13 +51,13 @@ public:
         const std::array<float, 4> key = {float(form), roughness.x, roughness.y, float(face_size)};
         auto found = ranges_.find(key);
         if (found == ranges_.end()) {
-            const SampleTable table = build_table(plan_.settings.sampler, form, roughness, face_size);
-            found =
-                ranges_.emplace(key, Range{uint32_t(sample_entries.size()), uint32_t(table.entries.size())})
-                    .first;
-            sample_entries.insert(sample_entries.end(), table.entries.begin(), table.entries.end());
-            while (sample_entries.size() % 4)
-                sample_entries.emplace_back(0.0f); // the kernel reads whole phases
+            std::vector<glm::vec4> entries =
+                build_table(plan_.settings.sampler, form, roughness, face_size).entries;
+            const uint32_t count = uint32_t(entries.size());
+            while (entries.size() % 4)
+                entries.emplace_back(0.0f); // the kernel reads whole phases
+            const uint32_t begin = append(std::make_shared<std::vector<glm::vec4>>(std::move(entries)));
+            found = ranges_.emplace(key, Range{begin, count}).first;
         }
         return found->second;
     }
@@ -68,18 +68,20 @@ public:
         return *mixtures_begin_;
     }
 
-    /// First entry of the lookups of one isotropic lobe, by view.
-    uint32_t view_table(uint32_t count, const KurtLobe& lobe, bool has_schlick, uint32_t face_size) {
-        MatchedLobe key{count, lobe.roughness.x, lobe.alpha, 1.0f, 0.0f, has_schlick, face_size};
+    /// First entry of the lookups of one lobe by view, and its azimuths.
+    Range view_table(uint32_t count, const KurtLobe& lobe, bool has_schlick, uint32_t face_size) {
+        MatchedLobe key{count, lobe.roughness.x, lobe.roughness.y, lobe.alpha, 1.0f,
+                        0.0f,  has_schlick,      face_size};
         const float specular = mean(lobe.weight * lobe.r0), total = mean(lobe.weight);
         if (lobe.has_fresnel() && total > 0.0f) {
             // Where nothing is reflected, some direction must still come out.
             key.specular = std::clamp(specular / total, 1e-3f, 1.0f);
             key.grazing = 1.0f - key.specular;
         }
-        const auto found = view_begins_.find(key);
-        if (found != view_begins_.end()) return found->second;
-        return view_begins_.emplace(key, append(cache_.view_table(key))).first->second;
+        auto found = view_begins_.find(key);
+        if (found == view_begins_.end())
+            found = view_begins_.emplace(key, append(cache_.view_table(key))).first;
+        return {found->second, view_azimuths(key)};
     }
 
     /// First entry and azimuth nodes of the albedo table of a lobe.
@@ -92,23 +94,26 @@ public:
                 is_varying ? cache_.varying_albedo(alpha) : cache_.albedo(roughness, alpha).entries;
             const uint32_t nodes = is_varying ? 1 : cache_.albedo(roughness, alpha).width_nodes;
             found = albedo_ranges_.emplace(key, Range{uint32_t(albedo_entries.size()), nodes}).first;
-            albedo_entries.insert(albedo_entries.end(), table.begin(), table.end());
+            for (size_t k = 0; k < table.size(); ++k) // each with the next: a lookup reads both at once
+                albedo_entries.emplace_back(table[k], table[std::min(k + 1, table.size() - 1)]);
         }
         return found->second;
     }
 
-    std::vector<glm::vec4> sample_entries;
-    std::vector<glm::vec2> albedo_entries;
+    std::vector<SampleEntries> sample_tables;
+    std::vector<glm::vec4> albedo_entries;
 
 private:
-    uint32_t append(const std::vector<glm::vec4>& entries) {
-        const uint32_t begin = uint32_t(sample_entries.size());
-        sample_entries.insert(sample_entries.end(), entries.begin(), entries.end());
+    uint32_t append(SampleEntries entries) {
+        const uint32_t begin = entry_count_;
+        entry_count_ += uint32_t(entries->size());
+        sample_tables.push_back(std::move(entries));
         return begin;
     }
 
     const Plan& plan_;
     TableCache& cache_;
+    uint32_t entry_count_ = 0;
     std::optional<uint32_t> mixtures_begin_;
     std::map<MatchedLobe, uint32_t> view_begins_;
     std::map<std::array<float, 4>, Range> ranges_;
@@ -169,19 +174,38 @@ const AlbedoTable& TableCache::albedo(glm::vec2 roughness, float alpha) {
     return found->second;
 }
 
-const std::vector<glm::vec4>& TableCache::mixtures(uint32_t count) {
-    auto found = mixtures_.find(count);
-    if (found == mixtures_.end()) found = mixtures_.emplace(count, matched_mixtures(count)).first;
-    return found->second;
+SampleEntries TableCache::mixtures(uint32_t count) {
+    SampleEntries& found = mixtures_[count];
+    if (!found) found = std::make_shared<std::vector<glm::vec4>>(matched_mixtures(count));
+    return found;
 }
 
-const std::vector<glm::vec4>& TableCache::view_table(const MatchedLobe& lobe) {
-    auto found = view_tables_.find(lobe);
+SampleEntries TableCache::view_table(const MatchedLobe& lobe) {
+    const auto found = view_tables_.find(lobe);
     if (found != view_tables_.end()) return found->second;
     // A material that changes with every frame must not fill the memory.
-    if (view_tables_.size() >= MOST_VIEW_TABLES) view_tables_.clear();
-    found = view_tables_.emplace(lobe, build_matched_view_table(lobe)).first;
-    return found->second;
+    if (view_entries_ + view_table_entries(lobe) > MOST_KEPT_VIEW_ENTRIES) {
+        view_tables_.clear();
+        view_entries_ = 0;
+    }
+    view_entries_ += view_table_entries(lobe);
+    return view_tables_
+        .emplace(lobe, std::make_shared<std::vector<glm::vec4>>(build_matched_view_table(lobe)))
+        .first->second;
+}
+
+std::shared_ptr<const SampleBuffer> TableCache::sample_buffer(const vulkan::DevicePointer& device,
+                                                              std::vector<SampleEntries> tables) {
+    if (samples_ && samples_->tables == tables) return samples_;
+    samples_.reset(); // its memory may be needed for the next
+    std::vector<glm::vec4> entries;
+    for (const SampleEntries& table : tables)
+        entries.insert(entries.end(), table->begin(), table->end());
+    auto made = std::make_shared<SampleBuffer>();
+    made->tables = std::move(tables);
+    made->buffer = storage(device, entries);
+    made->texels = vulkan::texel_view(made->buffer, VK_FORMAT_R32G32B32A32_SFLOAT);
+    return samples_ = std::move(made);
 }
 
 const std::vector<glm::vec2>& TableCache::varying_albedo(float alpha) {
@@ -227,10 +251,14 @@ ShadeTables make_shade_tables(const vulkan::DevicePointer& device, const Scene& 
             const KurtLobe lobe = lobe_of(material, which, traits);
             shared::LobeRecord record = lobe_record(lobe);
             if (const auto* matched = std::get_if<Matched>(&plan.settings.sampler)) {
-                record.table_begin =
-                    traits.table == TableForm::matched_by_view
-                        ? writer.view_table(matched->samples, lobe, traits.has_fresnel, face_size)
-                        : writer.mixtures(matched->samples);
+                if (traits.table == TableForm::matched_by_view) {
+                    const auto views =
+                        writer.view_table(matched->samples, lobe, traits.has_fresnel, face_size);
+                    record.table_begin = views.begin;
+                    record.view_azimuths = views.count;
+                } else {
+                    record.table_begin = writer.mixtures(matched->samples);
+                }
                 record.table_count = matched->samples;
                 record.variance_share = spherical_share(1.0, face_size);
                 counts[instance.shade_class].insert(matched->samples);
@@ -286,10 +314,9 @@ ShadeTables make_shade_tables(const vulkan::DevicePointer& device, const Scene& 
     tables.lobe_rows = vulkan::texel_view(tables.lobes, VK_FORMAT_R32G32B32A32_UINT);
     tables.map_records = storage(device, maps);
     tables.map_rows = vulkan::texel_view(tables.map_records, VK_FORMAT_R32G32B32A32_UINT);
-    tables.samples = storage(device, writer.sample_entries);
-    tables.sample_texels = vulkan::texel_view(tables.samples, VK_FORMAT_R32G32B32A32_SFLOAT);
+    tables.samples = cache.sample_buffer(device, std::move(writer.sample_tables));
     tables.albedo = storage(device, writer.albedo_entries);
-    tables.albedo_texels = vulkan::texel_view(tables.albedo, VK_FORMAT_R32G32_SFLOAT);
+    tables.albedo_texels = vulkan::texel_view(tables.albedo, VK_FORMAT_R32G32B32A32_SFLOAT);
     return tables;
 }
 

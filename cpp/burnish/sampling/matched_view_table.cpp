@@ -1,8 +1,8 @@
 #include "burnish/sampling/matched_view_table.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <span>
 
 #include "burnish/sampling/matched_table.h"
 #include "burnish/sampling/prefilter_table.h"
@@ -13,11 +13,30 @@ namespace {
 
 constexpr double LEAST_COS_O = 1e-4;
 constexpr double LEAST_GAIN = 1e-9; ///< a component that reflects less lies below the horizon
+/// Of the linear map's variance, what a narrow component has: the reflection's bend takes the rest.
+constexpr double NARROW_VARIANCE = 0.95;
 
-struct Mean {
-    double base = 0.0, schlick = 0.0, gain = 0.0;
-    glm::dvec3 direction{0.0};
+/// Where components of one view lie. A slope y1 axis1 + y2 axis2 (y in units of the lobe's principal axes on
+/// the map) is a half-vector n + slope.
+struct LobeMap {
+    glm::dvec2 axis1, axis2;
+    double rho;    ///< of the principal axes
+    double linear; ///< b^2/c: a component's variance over s^2 (o.h) cos_h^3
 };
+
+/// Widths of the mirrored lobe on the sphere (maths: section 6): V of the singular value decomposition of
+/// L = 2 [ex mx, ey my; -ey mx c, ex my c].
+LobeMap map_lobe(glm::dvec2 roughness, glm::dvec3 omega_o, glm::dvec2 e) {
+    const glm::dvec2 along = glm::dvec2(omega_o) * roughness, e2 = e * e, m2 = roughness * roughness;
+    const double floored = std::max(omega_o.z, 0.03), c2 = floored * floored + glm::dot(along, along);
+    const double p = 4.0 * m2.x * (e2.x + e2.y * c2), s = 4.0 * m2.y * (e2.y + e2.x * c2);
+    const double area = 4.0 * roughness.x * roughness.y, off = area * e.x * e.y * (1.0 - c2);
+    const double major2 = 0.5 * (p + s) + std::hypot(0.5 * (p - s), off), product = area * std::sqrt(c2);
+    const double angle = 0.5 * std::atan2(off, 0.5 * (p - s));
+    const glm::dvec2 v1(std::cos(angle), std::sin(angle));
+    return {roughness * v1, roughness * glm::dvec2(-v1.y, v1.x), std::max(major2 / product, 1.0),
+            area * product / major2};
+}
 
 struct Point {
     double x, y, share;
@@ -25,91 +44,151 @@ struct Point {
 /// Centre and four corners: exact to the third degree, and of the rules of up to nine points the one that
 /// errs least on wide lobes.
 constexpr double CORNER = 1.0954451150103321; // sqrt(1.2)
-constexpr std::array<Point, 5> POINTS = {{{0.0, 0.0, 4.0 / 24.0},
-                                          {CORNER, CORNER, 5.0 / 24.0},
-                                          {CORNER, -CORNER, 5.0 / 24.0},
-                                          {-CORNER, CORNER, 5.0 / 24.0},
-                                          {-CORNER, -CORNER, 5.0 / 24.0}}};
+constexpr Point CORNERS[] = {{0.0, 0.0, 4.0 / 24.0},
+                             {CORNER, CORNER, 5.0 / 24.0},
+                             {CORNER, -CORNER, 5.0 / 24.0},
+                             {-CORNER, CORNER, 5.0 / 24.0},
+                             {-CORNER, -CORNER, 5.0 / 24.0}};
+/// One deviation to either side: exact to second order along one direction.
+constexpr Point PAIR[] = {{1.0, 0.0, 0.5}, {-1.0, 0.0, 0.5}};
 
-/// Means of the component at `slope` with a `deviation` along each axis.
-Mean component_mean(const MatchedLobe& lobe, glm::dvec3 omega_o, glm::dvec2 slope, glm::dvec2 deviation) {
-    Mean mean;
-    for (const Point& point : POINTS) {
-        const glm::dvec3 g(slope.x + point.x * deviation.x, slope.y + point.y * deviation.y, 1.0);
-        const double length2 = glm::dot(g, g), og = glm::dot(omega_o, g);
-        const glm::dvec3 omega_i = 2.0 * og / length2 * g - omega_o;
-        if (omega_i.z <= 0.0 || og <= 0.0) continue;
-        const double cos_power = lobe.alpha == 0.0f ? omega_i.z : std::pow(omega_i.z, 1.0 - lobe.alpha);
-        const double weight = point.share * cos_power * std::sqrt(length2);
-        const double schlick = std::pow(std::clamp(1.0 - og / std::sqrt(length2), 0.0, 1.0), 5.0);
-        const double gain = weight * (lobe.specular + lobe.grazing * schlick);
-        mean.base += weight;
-        mean.schlick += weight * schlick;
-        mean.gain += gain;
-        mean.direction += gain * omega_i;
-    }
-    return mean;
-}
+struct Mean {
+    double base = 0.0, schlick = 0.0, gain = 0.0;
+    glm::dvec3 direction{0.0};
+    double lengths2 = 1.0; ///< |g|^2 of all points, multiplied
+};
 
 /// Levels that a lookup gains where centres lie far apart against their widths (maths: section 6).
 double level_shift(const MatchedLobe& lobe, double rho) {
     const double t = std::min(3.0, rho / lobe.samples);
-    const double wide = std::clamp(lobe.roughness - 0.15, 0.0, 0.45);
+    const double wide = std::clamp(std::max(lobe.roughness_x, lobe.roughness_y) - 0.15f, 0.0f, 0.45f);
     return -0.08 + 0.22 * t + 0.3 * std::max(0.0, t - 1.0) + 0.36 * wide;
 }
 
 class Row {
 public:
-    Row(const MatchedLobe& lobe, double cos_o) : lobe_(lobe) {
-        omega_o_ = {std::sqrt(1.0 - cos_o * cos_o), 0.0, cos_o};
-        const double floored = std::max(cos_o, 0.03), along = omega_o_.x * lobe.roughness;
-        foreshortening_ = std::sqrt(floored * floored + along * along);
-        // Slopes are 1 at most, so the lobe is never longer across the plane of view than in it.
-        rho_ = 1.0 / foreshortening_;
-        minor_ = 2.0 * lobe.roughness * foreshortening_;
-        shift_ = level_shift(lobe, rho_);
+    /// `e`: the plane of view in the lobe's axes.
+    Row(const MatchedLobe& lobe, double cos_o, glm::dvec2 e) : lobe_(lobe) {
+        const double sine = std::sqrt(1.0 - cos_o * cos_o);
+        omega_o_ = glm::dvec3(sine * e, cos_o);
+        map_ = map_lobe({lobe.roughness_x, lobe.roughness_y}, omega_o_, e);
+        shift_ = std::exp2(2.0 * level_shift(lobe, map_.rho));
+        is_narrow_ = is_brushed() && std::min(lobe.roughness_x, lobe.roughness_y) <= WIDE_LOBE;
+        mirror_ = glm::dvec3(-sine * e, cos_o);
+        const glm::dvec3 t1(cos_o * e, sine), t2(-e.y, e.x, 0.0);
+        const glm::dvec2 turn = is_brushed() ? e : glm::dvec2(1.0, 0.0);
+        axis1_ = turn.x * t1 - turn.y * t2;
+        axis2_ = turn.y * t1 + turn.x * t2;
     }
 
-    double rho() const { return rho_; }
+    double rho() const { return map_.rho; }
 
     /// Entry and Schlick term of the component at sign * (y1, y2).
     std::pair<glm::vec4, float> entry(glm::dvec4 mixture, double sign) const {
-        const glm::dvec2 slope = sign * double(lobe_.roughness) * glm::dvec2(mixture);
-        const glm::dvec2 deviation = double(lobe_.roughness) * mixture.z * glm::dvec2(1.0 / rho_, 1.0);
-        const Mean mean = component_mean(lobe_, omega_o_, slope, deviation);
+        const glm::dvec2 slope = sign * (mixture.x * map_.axis1 + mixture.y * map_.axis2);
+        const Mean mean = is_narrow_ ? narrow_mean(slope, mixture.z) : wide_mean(slope, mixture.z);
         if (mean.gain < LEAST_GAIN) return {glm::vec4(0.0f), 0.0f};
         const double length = glm::length(mean.direction);
-        const glm::dvec3 g(slope, 1.0);
-        const double linear = std::pow(mixture.z * minor_, 2.0) * std::max(glm::dot(omega_o_, g), 0.0) /
-                              (std::pow(glm::dot(g, g), 2.0) * foreshortening_);
-        const double variance = std::clamp(-std::log(std::min(length / mean.gain, 1.0)), 0.5 * linear, 1.0);
+        const double og = std::max(glm::dot(omega_o_, glm::dvec3(slope, 1.0)), 0.0);
+        const double linear = mixture.z * mixture.z * map_.linear * og;
+        const double center2 = 1.0 + glm::dot(slope, slope);
+        const double variance = is_narrow_ ? NARROW_VARIANCE * linear / mean.lengths2
+                                           : std::max(-std::log(std::min(length / mean.gain, 1.0)),
+                                                      0.5 * linear / (center2 * center2));
         const glm::dvec3 direction = mean.direction / length;
-        const glm::dvec3 mirror(-omega_o_.x, 0.0, omega_o_.z), t1(omega_o_.z, 0.0, omega_o_.x);
-        const double near = 1.0 + glm::dot(direction, mirror);
-        return {glm::vec4(glm::dot(direction, t1) / near, direction.y / near, mixture.w * mean.base,
-                          spherical_level(variance * std::exp2(2.0 * shift_), lobe_.face_size)),
+        const double near = std::max(1.0 + glm::dot(direction, mirror_), 1e-6);
+        return {glm::vec4(glm::dot(direction, axis1_) / near, glm::dot(direction, axis2_) / near,
+                          mixture.w * mean.base,
+                          spherical_level(std::min(variance, 1.0) * shift_, lobe_.face_size)),
                 float(mean.schlick / mean.base)};
     }
 
 private:
+    bool is_brushed() const { return lobe_.roughness_x != lobe_.roughness_y; }
+
+    /// Along the direction in which cos_i changes most, h; across it, along p with o.p = 0, the reflection
+    /// bends.
+    Mean narrow_mean(glm::dvec2 slope, double s) const {
+        const glm::dvec2 o(omega_o_), change(glm::dot(o, map_.axis1) / map_.rho, glm::dot(o, map_.axis2));
+        const double steepness = glm::length(change);
+        const glm::dvec2 u = steepness > 1e-7 ? change / steepness : glm::dvec2(0.0, 1.0);
+        const glm::dvec2 h = u.x / map_.rho * map_.axis1 + u.y * map_.axis2;
+        const glm::dvec2 p = u.x * map_.axis2 - u.y / map_.rho * map_.axis1;
+        return mean_of(PAIR, slope, s * h, glm::dvec2(0.0), 1.0 - s * s * glm::dot(p, p));
+    }
+
+    Mean wide_mean(glm::dvec2 slope, double s) const {
+        return mean_of(CORNERS, slope, s / map_.rho * map_.axis1, s * map_.axis2, 1.0);
+    }
+
+    /// Means of what points around a slope reflect: the view goes to q g - o, q = 2 (o.g)/|g|^2 bend.
+    Mean mean_of(std::span<const Point> points, glm::dvec2 slope, glm::dvec2 along, glm::dvec2 across,
+                 double bend) const {
+        Mean mean;
+        for (const Point& point : points) {
+            const glm::dvec3 g(slope + point.x * along + point.y * across, 1.0);
+            const double length2 = glm::dot(g, g), og = glm::dot(omega_o_, g);
+            mean.lengths2 *= length2;
+            const glm::dvec3 omega_i = 2.0 * bend * og / length2 * g - omega_o_;
+            if (omega_i.z <= 0.0 || og <= 0.0) continue;
+            const double cos_power = lobe_.alpha == 0.0f ? omega_i.z : std::pow(omega_i.z, 1.0 - lobe_.alpha);
+            const double length = std::sqrt(length2), weight = point.share * cos_power * length;
+            const double rest = std::clamp(1.0 - og / length, 0.0, 1.0), rest2 = rest * rest;
+            const double schlick = rest2 * rest2 * rest;
+            const double gain = weight * (lobe_.specular + lobe_.grazing * schlick);
+            mean.base += weight;
+            mean.schlick += weight * schlick;
+            mean.gain += gain;
+            mean.direction += gain * omega_i;
+        }
+        return mean;
+    }
+
     MatchedLobe lobe_;
-    glm::dvec3 omega_o_;
-    double foreshortening_, rho_, minor_, shift_;
+    glm::dvec3 omega_o_, mirror_, axis1_, axis2_;
+    LobeMap map_;
+    double shift_; ///< of the level, as a factor of variance
+    bool is_narrow_;
 };
 
+/// The plane of view of an azimuth node.
+glm::dvec2 plane_of(uint32_t node, uint32_t nodes) {
+    if (nodes == 1) return {1.0, 0.0};
+    const double x = 1.0 - 2.0 * double(node) / (nodes - 1);
+    return glm::normalize(glm::dvec2(x, 1.0 - std::abs(x)));
+}
+
 } // namespace
+
+bool fits_view_table(glm::vec2 roughness) {
+    return std::max(roughness.x, roughness.y) <=
+           shared::MATCHED_MOST_VIEW_ASPECT * std::min(roughness.x, roughness.y);
+}
+
+uint32_t view_azimuths(const MatchedLobe& lobe) {
+    return lobe.roughness_x == lobe.roughness_y ? 1 : shared::MATCHED_AZIMUTHS;
+}
+
+uint32_t view_count(const MatchedLobe& lobe) {
+    return view_azimuths(lobe) == 1 ? shared::MATCHED_ROWS : shared::MATCHED_BRUSHED_VIEWS;
+}
 
 uint32_t view_row_entries(const MatchedLobe& lobe) {
     return lobe.samples + (lobe.has_schlick ? (lobe.samples + 3) / 4 : 0);
 }
 
+uint64_t view_table_entries(const MatchedLobe& lobe) {
+    return uint64_t(view_count(lobe)) * view_azimuths(lobe) * view_row_entries(lobe);
+}
+
 std::vector<glm::vec4> build_matched_view_table(const MatchedLobe& lobe) {
     const std::vector<glm::vec4> mixtures = matched_mixtures(lobe.samples);
     const uint32_t half = (lobe.samples + 1) / 2, entries = view_row_entries(lobe);
-    std::vector<glm::vec4> table(size_t(shared::MATCHED_ROWS) * entries, glm::vec4(0.0f));
-    for (uint32_t j = 0; j < shared::MATCHED_ROWS; ++j) {
-        const double root = double(j) / (shared::MATCHED_ROWS - 1);
-        const Row row(lobe, std::max(root * root, LEAST_COS_O));
+    const uint32_t azimuths = view_azimuths(lobe), views = view_count(lobe);
+    std::vector<glm::vec4> table(view_table_entries(lobe), glm::vec4(0.0f));
+    for (uint32_t j = 0; j < views * azimuths; ++j) {
+        const double root = double(j / azimuths) / (views - 1);
+        const Row row(lobe, std::max(root * root, LEAST_COS_O), plane_of(j % azimuths, azimuths));
         const glm::vec4* mixture = &mixtures[size_t(matched_row(row.rho())) * half];
         glm::vec4* const out = &table[size_t(j) * entries];
         for (uint32_t k = 0; k < lobe.samples; ++k) {

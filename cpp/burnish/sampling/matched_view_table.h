@@ -1,5 +1,5 @@
-// The matched sampler's lookups of one isotropic lobe, for every view: what its wide components need too many
-// points for to be found at every pixel.
+// The matched sampler's lookups of one lobe, for every view: what would take too many points at every pixel
+// is done once for a material.
 #pragma once
 
 #include <compare>
@@ -11,8 +11,9 @@
 namespace burnish {
 
 struct MatchedLobe {
-    uint32_t samples = 14;  ///< one of MATCHED_COUNTS
-    float roughness = 0.3f; ///< slope, along both axes
+    uint32_t samples = 14;    ///< one of MATCHED_COUNTS
+    float roughness_x = 0.3f; ///< slopes
+    float roughness_y = 0.3f;
     float alpha = 0.0f;
     float specular = 1.0f; ///< F = specular + grazing (1 - o.h)^5, over all channels: weighs directions
     float grazing = 0.0f;
@@ -22,13 +23,27 @@ struct MatchedLobe {
     auto operator<=>(const MatchedLobe&) const = default;
 };
 
+/// Whether views are dense enough for a lobe: samples of a very brushed one are narrower than what they move
+/// by from one azimuth to the next.
+bool fits_view_table(glm::vec2 roughness);
+
+/// Views that rows are made for: MATCHED_ROWS angles of a round lobe, MATCHED_BRUSHED_VIEWS times
+/// MATCHED_AZIMUTHS azimuths of a brushed one.
+uint32_t view_count(const MatchedLobe& lobe);
+uint32_t view_azimuths(const MatchedLobe& lobe);
+
 /// Entries of a row: one for each sample, then the Schlick terms of four samples each, if there are any.
 uint32_t view_row_entries(const MatchedLobe& lobe);
 
-/// MATCHED_ROWS rows; row j is for cos_o = (j/(MATCHED_ROWS-1))^2. An entry is (p1, p2, weight, level): the
-/// lookup goes to 2 p1 T1 + 2 p2 T2 + (1 - p1^2 - p2^2) I, with I the mirror direction, T1 across it in the
-/// plane of view, on the normal's side, and T2 across both. A Schlick term is the mean of (1 - o.h)^5 over a
-/// component.
+uint64_t view_table_entries(const MatchedLobe& lobe);
+
+/// Rows for views times azimuths, azimuths innermost. Of MATCHED_ROWS (round) or MATCHED_BRUSHED_VIEWS views,
+/// row j is for cos_o = (j/(views-1))^2. Azimuth k of a brushed lobe is where the plane of view, e with ey >=
+/// 0 in the lobe's axes, has (1 - ex/(|ex| + ey))/2 = k/(MATCHED_AZIMUTHS-1): a view from the other side has
+/// the same samples. An entry is (p1, p2, weight, level): the lookup goes to 2 p1 U1 + 2 p2 U2 + (1 - p1^2 -
+/// p2^2) I, with I the mirror direction. U1 and U2 are the lobe's axes, carried from the normal to I along
+/// the plane of view; of round lobes U1 lies in that plane, on the normal's side, and U2 across both. A
+/// Schlick term is the mean of (1 - o.h)^5 over a component.
 std::vector<glm::vec4> build_matched_view_table(const MatchedLobe& lobe);
 
 } // namespace burnish

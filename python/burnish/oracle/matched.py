@@ -14,7 +14,14 @@ from .estimator import LocalFrame, local_frame
 from .kurt_lobe import LobeLike, slopes
 from .lobe_map import lobe_map, principal_axes
 from .matched_means import Means, corner_means, two_point_means
-from .matched_table import closest_count, load_table, mixture_at, nearest_aspect, nearest_view
+from .matched_table import (
+    MOST_VIEW_ASPECT,
+    closest_count,
+    load_table,
+    mixture_at,
+    nearest_aspect,
+    nearest_view,
+)
 from .pyramid import build_pyramid
 from .spherical_pyramid import build_spherical_pyramid
 from .sun_split import Sun, shade_suns, split_suns
@@ -83,16 +90,17 @@ def matched_lookups(
     """Place the mixture of one count at surface points (maths.md, section 6).
 
     The spherical pyramid is the same everywhere: nothing but the directions' rotation depends on the frame.
-    Samples of round lobes depend on the angle of view alone and are those of the nearest of TABLE_ROWS views,
-    turned to the mirror direction of the view itself.
+    Samples depend on the lobe and the view in its frame: they are those of the nearest view of a table, carried
+    to the mirror direction of the view itself, unless the lobe's aspect exceeds MOST_VIEW_ASPECT.
     """
     mx, my = slopes(lobe)
     view = frame.omega_o
-    if mx == my:
-        near = nearest_view(view)
+    if max(mx, my) <= MOST_VIEW_ASPECT * min(mx, my):
+        axes_of = _mirror_axes if mx == my else _carried_axes
+        near = nearest_view(view, is_round=mx == my)
         means, rho = place_means(near, lobe, samples, rows)
-        local = dot(means.direction[..., None, :], _mirror_axes(near)[..., None, :, :])
-        direction = np.einsum("...nk,...kc->...nc", local, _mirror_axes(view))
+        local = dot(means.direction[..., None, :], axes_of(near)[..., None, :, :])
+        direction = np.einsum("...nk,...kc->...nc", local, axes_of(view))
     else:
         means, rho = place_means(view, lobe, samples, rows)
         direction = means.direction
@@ -106,6 +114,20 @@ def _mirror_axes(omega_o: Array) -> Array:
     """Rows T1, T2 and I of local views, (..., 3, 3)."""
     _, t1, t2, _ = lobe_map(omega_o, 1.0, 1.0)
     return np.stack([t1, t2, omega_o * [-1.0, -1.0, 1.0]], axis=-2)
+
+
+def _carried_axes(omega_o: Array) -> Array:
+    """Images of the local axes under the shortest rotation from the normal to the mirror direction, as rows."""
+    x, y, z = -omega_o[..., 0], -omega_o[..., 1], omega_o[..., 2]
+    share = 1 / (1 + z)
+    return np.stack(
+        [
+            np.stack([1 - share * x * x, -share * x * y, -x], axis=-1),
+            np.stack([-share * x * y, 1 - share * y * y, -y], axis=-1),
+            np.stack([x, y, z], axis=-1),
+        ],
+        axis=-2,
+    )
 
 
 @dataclass(frozen=True)

@@ -79,6 +79,11 @@ def mixture_at(rows: Array, samples: int, rho: npt.ArrayLike) -> Mixture:
 #: Rows that the engine reads, the nearest one: of aspects, evenly in their log; of views, at
 #: cos_o = (j/1023)^2.
 TABLE_ROWS = 1024
+#: Views of brushed lobes, at cos_o = (j/127)^2, and azimuths over half a turn, evenly around a diamond.
+BRUSHED_VIEWS = 128
+AZIMUTHS = 257
+#: Larger aspects are placed at the view itself.
+MOST_VIEW_ASPECT = 8.0
 
 
 def nearest_aspect(rho: npt.ArrayLike) -> Array:
@@ -89,13 +94,23 @@ def nearest_aspect(rho: npt.ArrayLike) -> Array:
     return aspect
 
 
-def nearest_view(omega_o: npt.ArrayLike) -> Array:
-    """Local view of the same azimuth whose cosine is that of the nearest row, at least 1e-4; (..., 3)."""
+def nearest_view(omega_o: npt.ArrayLike, *, is_round: bool) -> Array:
+    """Local view of the nearest row of a table by view, its cosine at least 1e-4; (..., 3).
+
+    Round lobes have rows for cosines alone: the azimuth stays.
+    """
     omega_o = as_array(omega_o)
-    row = np.floor(np.sqrt(np.clip(omega_o[..., 2], 0, 1)) * (TABLE_ROWS - 1) + 0.5)
-    cosine = np.maximum((row / (TABLE_ROWS - 1)) ** 2, 1e-4)
+    last = (TABLE_ROWS if is_round else BRUSHED_VIEWS) - 1
+    row = np.floor(np.sqrt(np.clip(omega_o[..., 2], 0, 1)) * last + 0.5)
+    cosine = np.maximum((row / last) ** 2, 1e-4)
     sine = np.hypot(omega_o[..., 0], omega_o[..., 1])
-    scale = np.sqrt(1 - cosine**2) / np.where(sine > 0, sine, 1.0)
     # A view along the normal has no azimuth: the first axis serves.
-    x = np.where(sine > 0, omega_o[..., 0] * scale, np.sqrt(1 - cosine**2))
-    return np.stack([x, omega_o[..., 1] * scale, cosine], axis=-1)
+    x = np.where(sine > 0, omega_o[..., 0], 1.0)
+    y = np.where(sine > 0, omega_o[..., 1], 0.0)
+    if not is_round:
+        side = np.where(y < 0, -1.0, 1.0)
+        way = (1 - side * x / (np.abs(x) + np.abs(y))) / 2
+        corner = 1 - 2 * np.floor(way * (AZIMUTHS - 1) + 0.5) / (AZIMUTHS - 1)
+        x, y = side * corner, side * (1 - np.abs(corner))
+    scale = np.sqrt(1 - cosine**2) / np.hypot(x, y)
+    return np.stack([x * scale, y * scale, cosine], axis=-1)
