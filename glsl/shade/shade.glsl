@@ -6,6 +6,7 @@
 #include "lib/spherical_harmonics.glsl"
 #include "shade/lobe.glsl"
 #include "shade/matched.glsl"
+#include "shade/matched_by_view.glsl"
 #include "shade/prefiltered.glsl"
 #include "shade/suns.glsl"
 #include "shade/surface_point.glsl"

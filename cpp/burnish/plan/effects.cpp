@@ -5,6 +5,7 @@
 #include <set>
 
 #include "burnish/error.h"
+#include "burnish/sampling/matched_view_table.h"
 
 namespace burnish {
 namespace {
@@ -65,6 +66,15 @@ size_t software_set_count(const Plan& plan) {
                                 [](const MapSet& set) { return set.lookup == MapLookup::software; }));
 }
 
+std::string why_at_every_point(const ShadeTraits& traits, const std::vector<const Material*>& materials) {
+    if (traits.has_varying) return "roughness varies over the surface";
+    for (const Material* material : materials)
+        for (const KurtLobe& lobe : material->lobes)
+            if (!fits_view_table(lobe.roughness))
+                return "a table by view would be too coarse for so brushed a lobe";
+    return "tables by view of so many brushed lobes would take too much memory";
+}
+
 } // namespace
 
 bool has_texture(const Material& material, TextureUse MetallicRoughness::*which) {
@@ -120,9 +130,7 @@ std::string describe(const ShadeClass& one, const Scene& scene, const Plan& plan
         text += "; roughness varies over the surface, samples scale with it";
         break;
     case TableForm::matched:
-        text += one.traits.has_varying
-                    ? "; roughness varies over the surface, mixtures placed at every point"
-                    : "; mixtures placed at every point: the lobe is very brushed, or there are many";
+        text += "; mixtures placed at every point: " + why_at_every_point(one.traits, some);
         break;
     case TableForm::matched_by_view:
         text += "; mixtures placed for every view when the material changes";

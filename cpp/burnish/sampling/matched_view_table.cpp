@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <span>
+#include <thread>
 
 #include "burnish/sampling/matched_table.h"
 #include "burnish/sampling/prefilter_table.h"
@@ -186,7 +187,7 @@ std::vector<glm::vec4> build_matched_view_table(const MatchedLobe& lobe) {
     const uint32_t half = (lobe.samples + 1) / 2, entries = view_row_entries(lobe);
     const uint32_t azimuths = view_azimuths(lobe), views = view_count(lobe);
     std::vector<glm::vec4> table(view_table_entries(lobe), glm::vec4(0.0f));
-    for (uint32_t j = 0; j < views * azimuths; ++j) {
+    const auto place = [&](uint32_t j) {
         const double root = double(j / azimuths) / (views - 1);
         const Row row(lobe, std::max(root * root, LEAST_COS_O), plane_of(j % azimuths, azimuths));
         const glm::vec4* mixture = &mixtures[size_t(matched_row(row.rho())) * half];
@@ -199,6 +200,17 @@ std::vector<glm::vec4> build_matched_view_table(const MatchedLobe& lobe) {
             out[k] = entry;
             if (lobe.has_schlick) out[lobe.samples + k / 4][int(k % 4)] = schlick;
         }
+    };
+    const uint32_t thread_count = azimuths == 1 ? 1 : std::max(1u, std::thread::hardware_concurrency());
+    const auto place_some = [&](uint32_t first) {
+        for (uint32_t j = first; j < views * azimuths; j += thread_count)
+            place(j);
+    };
+    {
+        std::vector<std::jthread> others;
+        for (uint32_t k = 1; k < thread_count; ++k)
+            others.emplace_back(place_some, k);
+        place_some(0);
     }
     return table;
 }

@@ -177,3 +177,44 @@ def test_plan_renders_nothing(monkeypatch, spots64):
     monkeypatch.setattr(burnish._core, "render", None)
     monkeypatch.setattr(burnish._core, "Device", None)
     assert plan_of(scene_of(material(LOBE), environment=spots64))["passes"]
+
+
+def table_of(*materials, sampler, environment):
+    (one,) = plan_of(scene_of(*materials, environment=environment), sampler=sampler)["classes"]
+    return one["table"], one["reason"]
+
+
+def brushed(x, y):
+    return material(burnish.KurtLobe(roughness=(x, y)))
+
+
+def test_samples_are_placed_by_view_where_a_table_can_hold_them(spots64):
+    matched = burnish.Matched(14)
+    for one in (material(LOBE), brushed(0.2, 0.025), brushed(0.05, 0.4)):
+        assert table_of(one, sampler=matched, environment=spots64)[0] == "matched by view"
+    table, reason = table_of(brushed(0.2, 0.024), sampler=matched, environment=spots64)
+    assert table == "matched" and "so brushed" in reason
+    many = [brushed(0.2, 0.1 + 0.001 * k) for k in range(40)]
+    assert table_of(*many[:30], sampler=matched, environment=spots64)[0] == "matched by view"
+    table, reason = table_of(*many, sampler=matched, environment=spots64)
+    assert table == "matched" and "memory" in reason
+
+
+def test_both_placements_of_brushed_samples_agree(device, spots64):
+    """As many lobes as tables cannot hold: their samples are placed at every point."""
+    few = [brushed(0.25, 0.1)]
+    many = few + [brushed(0.2, 0.1 + 0.001 * k) for k in range(40)]
+    camera = burnish.Camera.orthographic((0, 0, 3), (0, 0, 0), half_height=0.9, near_plane=0.1, far_plane=10)
+    colors = []
+    for materials in (few, many):
+        scene = burnish.Scene()
+        sphere = burnish.Mesh.sphere(segments=64)
+        scene.add(sphere, materials[0])
+        for one in materials[1:]:
+            scene.add(sphere, one, transform=np.diag([1e-3, 1e-3, 1e-3, 1.0]))  # inside the first
+        scene.environment = spots64
+        scene.show_background = False
+        frame = burnish.render(scene, camera, (96, 96), sampler=burnish.Matched(14), device=device)
+        colors.append(np.array(frame.color))
+    difference = np.sqrt(np.mean((colors[0] - colors[1]) ** 2)) / np.sqrt(np.mean(colors[1] ** 2))
+    assert 1e-4 < difference < 0.02

@@ -1,0 +1,87 @@
+#include "burnish/render/table_cache.h"
+
+#include <cmath>
+#include <span>
+
+#include "burnish/sampling/matched_table.h"
+#include "burnish/sampling/spherical_harmonics.h"
+#include "burnish/vulkan/transfer.h"
+#include "shared/constants.h"
+
+namespace burnish::render {
+namespace {
+
+constexpr uint64_t MOST_KEPT_VIEW_ENTRIES = 32'000'000; ///< 512 MB
+
+} // namespace
+
+const AlbedoTable& TableCache::albedo(glm::vec2 roughness, float alpha) {
+    const std::array<float, 3> key = {roughness.x, roughness.y, alpha};
+    auto found = albedo_.find(key);
+    if (found == albedo_.end()) found = albedo_.emplace(key, build_albedo_table(roughness, alpha)).first;
+    return found->second;
+}
+
+SampleEntries TableCache::mixtures(uint32_t count) {
+    SampleEntries& found = mixtures_[count];
+    if (!found) found = std::make_shared<std::vector<glm::vec4>>(matched_mixtures(count));
+    return found;
+}
+
+SampleEntries TableCache::view_table(const MatchedLobe& lobe) {
+    const auto found = view_tables_.find(lobe);
+    if (found != view_tables_.end()) return found->second;
+    // A material that changes with every frame must not fill the memory.
+    if (view_entries_ + view_table_entries(lobe) > MOST_KEPT_VIEW_ENTRIES) {
+        view_tables_.clear();
+        view_entries_ = 0;
+    }
+    view_entries_ += view_table_entries(lobe);
+    return view_tables_
+        .emplace(lobe, std::make_shared<std::vector<glm::vec4>>(build_matched_view_table(lobe)))
+        .first->second;
+}
+
+std::shared_ptr<const SampleBuffer> TableCache::sample_buffer(const vulkan::DevicePointer& device,
+                                                              std::vector<SampleEntries> tables) {
+    if (samples_ && samples_->tables == tables) return samples_;
+    samples_.reset(); // its memory may be needed for the next
+    std::vector<glm::vec4> entries;
+    for (const SampleEntries& table : tables)
+        entries.insert(entries.end(), table->begin(), table->end());
+    auto made = std::make_shared<SampleBuffer>();
+    made->tables = std::move(tables);
+    if (entries.empty()) entries.emplace_back(0.0f); // a binding must have something behind it
+    made->buffer = vulkan::make_buffer(device, std::as_bytes(std::span(entries)),
+                                       VK_BUFFER_USAGE_STORAGE_TEXEL_BUFFER_BIT);
+    made->texels = vulkan::texel_view(made->buffer, VK_FORMAT_R32G32B32A32_SFLOAT);
+    return samples_ = std::move(made);
+}
+
+const std::vector<glm::vec2>& TableCache::varying_albedo(float alpha) {
+    auto found = varying_albedo_.find(alpha);
+    if (found != varying_albedo_.end()) return found->second;
+    std::vector<glm::vec2> rows;
+    for (uint32_t k = 0; k < shared::ALBEDO_ROUGHNESS_NODES; ++k) {
+        const float m =
+            std::pow(shared::ALBEDO_LEAST_ROUGHNESS, 1.0f - float(k) / (shared::ALBEDO_ROUGHNESS_NODES - 1));
+        const AlbedoTable row = build_albedo_table(glm::vec2(m), alpha);
+        rows.insert(rows.end(), row.entries.begin(), row.entries.end());
+    }
+    return varying_albedo_.emplace(alpha, std::move(rows)).first->second;
+}
+
+const IrradianceCoefficients& TableCache::irradiance(const std::shared_ptr<const Environment>& environment) {
+    std::erase_if(irradiance_, [](const auto& entry) { return entry.second.environment.expired(); });
+    auto found = irradiance_.find(environment.get());
+    if (found == irradiance_.end())
+        found =
+            irradiance_
+                .emplace(environment.get(),
+                         Irradiance{environment, irradiance_over_pi_coefficients(
+                                                     {environment->face_size(), environment->radiance()})})
+                .first;
+    return found->second.coefficients;
+}
+
+} // namespace burnish::render

@@ -1,0 +1,55 @@
+// Tables that take long enough to make, or to bring to the device, to be worth keeping from frame to frame.
+#pragma once
+
+#include <array>
+#include <map>
+#include <memory>
+#include <vector>
+
+#include "burnish/sampling/albedo_table.h"
+#include "burnish/sampling/matched_view_table.h"
+#include "burnish/scene/environment.h"
+#include "burnish/vulkan/buffer.h"
+
+namespace burnish::render {
+
+using IrradianceCoefficients = std::array<glm::dvec3, 9>;
+
+using SampleEntries = std::shared_ptr<const std::vector<glm::vec4>>;
+
+/// Sample tables as kernels read them.
+struct SampleBuffer {
+    std::vector<SampleEntries> tables;
+    vulkan::Buffer buffer;
+    vulkan::TexelView texels;
+};
+
+class TableCache {
+public:
+    const AlbedoTable& albedo(glm::vec2 roughness, float alpha);
+    /// One row for each of ALBEDO_ROUGHNESS_NODES roughnesses.
+    const std::vector<glm::vec2>& varying_albedo(float alpha);
+    SampleEntries mixtures(uint32_t count);
+    SampleEntries view_table(const MatchedLobe& lobe);
+    /// The tables one after the other, on the device: the last ones again if they are the same.
+    std::shared_ptr<const SampleBuffer> sample_buffer(const vulkan::DevicePointer& device,
+                                                      std::vector<SampleEntries> tables);
+    /// Gives back what lies on the device.
+    void forget_buffers() { samples_.reset(); }
+    const IrradianceCoefficients& irradiance(const std::shared_ptr<const Environment>& environment);
+
+private:
+    std::map<std::array<float, 3>, AlbedoTable> albedo_;
+    std::map<float, std::vector<glm::vec2>> varying_albedo_;
+    std::map<uint32_t, SampleEntries> mixtures_;
+    std::map<MatchedLobe, SampleEntries> view_tables_;
+    uint64_t view_entries_ = 0; ///< of all view_tables_
+    std::shared_ptr<const SampleBuffer> samples_;
+    struct Irradiance {
+        std::weak_ptr<const Environment> environment; // a new one may take an old one's address
+        IrradianceCoefficients coefficients;
+    };
+    std::map<const Environment*, Irradiance> irradiance_;
+};
+
+} // namespace burnish::render
