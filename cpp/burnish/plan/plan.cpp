@@ -7,7 +7,6 @@
 
 #include "burnish/error.h"
 #include "burnish/plan/effects.h"
-#include "burnish/sampling/matched_table.h"
 #include "burnish/sampling/matched_view_table.h"
 #include "shared/constants.h"
 
@@ -87,6 +86,9 @@ bool fits_into_constants(const Sampler& sampler) {
         return importance->samples <= shared::MAX_CONSTANT_SAMPLES;
     return false;
 }
+
+/// Slope from which a component of a mixture bends so much that its mean takes five points instead of two.
+constexpr float WIDE_LOBE = 0.2f;
 
 /// Entries of brushed lobes' tables by view that a scene may have: 256 MB.
 constexpr uint64_t MOST_VIEW_ENTRIES = 16'000'000;

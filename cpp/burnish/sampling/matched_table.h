@@ -16,10 +16,6 @@ namespace burnish {
 /// exp(-|y|^2)/pi; the weights w of all components of a row sum to 1. `count` is one of MATCHED_COUNTS.
 std::vector<glm::vec4> matched_mixtures(uint32_t count);
 
-/// Narrower slope of a brushed lobe from which a component of its mixture bends so much that its mean takes
-/// five points instead of two.
-constexpr float WIDE_LOBE = 0.2f;
-
 /// The row nearest to an aspect.
 uint32_t matched_row(double rho);
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <span>
 #include <thread>
 
 #include "burnish/sampling/matched_table.h"
@@ -14,8 +13,6 @@ namespace {
 
 constexpr double LEAST_COS_O = 1e-4;
 constexpr double LEAST_GAIN = 1e-9; ///< a component that reflects less lies below the horizon
-/// Of the linear map's variance, what a narrow component has: the reflection's bend takes the rest.
-constexpr double NARROW_VARIANCE = 0.95;
 
 /// Where components of one view lie. A slope y1 axis1 + y2 axis2 (y in units of the lobe's principal axes on
 /// the map) is a half-vector n + slope.
@@ -45,18 +42,15 @@ struct Point {
 /// Centre and four corners: exact to the third degree, and of the rules of up to nine points the one that
 /// errs least on wide lobes.
 constexpr double CORNER = 1.0954451150103321; // sqrt(1.2)
-constexpr Point CORNERS[] = {{0.0, 0.0, 4.0 / 24.0},
-                             {CORNER, CORNER, 5.0 / 24.0},
-                             {CORNER, -CORNER, 5.0 / 24.0},
-                             {-CORNER, CORNER, 5.0 / 24.0},
-                             {-CORNER, -CORNER, 5.0 / 24.0}};
-/// One deviation to either side: exact to second order along one direction.
-constexpr Point PAIR[] = {{1.0, 0.0, 0.5}, {-1.0, 0.0, 0.5}};
+constexpr Point POINTS[] = {{0.0, 0.0, 4.0 / 24.0},
+                            {CORNER, CORNER, 5.0 / 24.0},
+                            {CORNER, -CORNER, 5.0 / 24.0},
+                            {-CORNER, CORNER, 5.0 / 24.0},
+                            {-CORNER, -CORNER, 5.0 / 24.0}};
 
 struct Mean {
     double base = 0.0, schlick = 0.0, gain = 0.0;
     glm::dvec3 direction{0.0};
-    double lengths2 = 1.0; ///< |g|^2 of all points, multiplied
 };
 
 /// Levels that a lookup gains where centres lie far apart against their widths (maths: section 6).
@@ -74,10 +68,9 @@ public:
         omega_o_ = glm::dvec3(sine * e, cos_o);
         map_ = map_lobe({lobe.roughness_x, lobe.roughness_y}, omega_o_, e);
         shift_ = std::exp2(2.0 * level_shift(lobe, map_.rho));
-        is_narrow_ = is_brushed() && std::min(lobe.roughness_x, lobe.roughness_y) <= WIDE_LOBE;
         mirror_ = glm::dvec3(-sine * e, cos_o);
         const glm::dvec3 t1(cos_o * e, sine), t2(-e.y, e.x, 0.0);
-        const glm::dvec2 turn = is_brushed() ? e : glm::dvec2(1.0, 0.0);
+        const glm::dvec2 turn = view_azimuths(lobe) > 1 ? e : glm::dvec2(1.0, 0.0);
         axis1_ = turn.x * t1 - turn.y * t2;
         axis2_ = turn.y * t1 + turn.x * t2;
     }
@@ -87,50 +80,29 @@ public:
     /// Entry and Schlick term of the component at sign * (y1, y2).
     std::pair<glm::vec4, float> entry(glm::dvec4 mixture, double sign) const {
         const glm::dvec2 slope = sign * (mixture.x * map_.axis1 + mixture.y * map_.axis2);
-        const Mean mean = is_narrow_ ? narrow_mean(slope, mixture.z) : wide_mean(slope, mixture.z);
+        const Mean mean = mean_of(slope, mixture.z);
         if (mean.gain < LEAST_GAIN) return {glm::vec4(0.0f), 0.0f};
         const double length = glm::length(mean.direction);
         const double og = std::max(glm::dot(omega_o_, glm::dvec3(slope, 1.0)), 0.0);
-        const double linear = mixture.z * mixture.z * map_.linear * og;
         const double center2 = 1.0 + glm::dot(slope, slope);
-        const double variance = is_narrow_ ? NARROW_VARIANCE * linear / mean.lengths2
-                                           : std::max(-std::log(std::min(length / mean.gain, 1.0)),
-                                                      0.5 * linear / (center2 * center2));
+        const double linear = mixture.z * mixture.z * map_.linear * og / (center2 * center2);
+        const double variance = std::clamp(-std::log(std::min(length / mean.gain, 1.0)), 0.5 * linear, 1.0);
         const glm::dvec3 direction = mean.direction / length;
         const double near = std::max(1.0 + glm::dot(direction, mirror_), 1e-6);
         return {glm::vec4(glm::dot(direction, axis1_) / near, glm::dot(direction, axis2_) / near,
-                          mixture.w * mean.base,
-                          spherical_level(std::min(variance, 1.0) * shift_, lobe_.face_size)),
+                          mixture.w * mean.base, spherical_level(variance * shift_, lobe_.face_size)),
                 float(mean.schlick / mean.base)};
     }
 
 private:
-    bool is_brushed() const { return lobe_.roughness_x != lobe_.roughness_y; }
-
-    /// Along the direction in which cos_i changes most, h; across it, along p with o.p = 0, the reflection
-    /// bends.
-    Mean narrow_mean(glm::dvec2 slope, double s) const {
-        const glm::dvec2 o(omega_o_), change(glm::dot(o, map_.axis1) / map_.rho, glm::dot(o, map_.axis2));
-        const double steepness = glm::length(change);
-        const glm::dvec2 u = steepness > 1e-7 ? change / steepness : glm::dvec2(0.0, 1.0);
-        const glm::dvec2 h = u.x / map_.rho * map_.axis1 + u.y * map_.axis2;
-        const glm::dvec2 p = u.x * map_.axis2 - u.y / map_.rho * map_.axis1;
-        return mean_of(PAIR, slope, s * h, glm::dvec2(0.0), 1.0 - s * s * glm::dot(p, p));
-    }
-
-    Mean wide_mean(glm::dvec2 slope, double s) const {
-        return mean_of(CORNERS, slope, s / map_.rho * map_.axis1, s * map_.axis2, 1.0);
-    }
-
-    /// Means of what points around a slope reflect: the view goes to q g - o, q = 2 (o.g)/|g|^2 bend.
-    Mean mean_of(std::span<const Point> points, glm::dvec2 slope, glm::dvec2 along, glm::dvec2 across,
-                 double bend) const {
+    /// Means over a component of deviation s/rho and s along the principal axes.
+    Mean mean_of(glm::dvec2 slope, double s) const {
         Mean mean;
-        for (const Point& point : points) {
-            const glm::dvec3 g(slope + point.x * along + point.y * across, 1.0);
+        for (const Point& point : POINTS) {
+            const glm::dvec2 offset = point.x / map_.rho * map_.axis1 + point.y * map_.axis2;
+            const glm::dvec3 g(slope + s * offset, 1.0);
             const double length2 = glm::dot(g, g), og = glm::dot(omega_o_, g);
-            mean.lengths2 *= length2;
-            const glm::dvec3 omega_i = 2.0 * bend * og / length2 * g - omega_o_;
+            const glm::dvec3 omega_i = 2.0 * og / length2 * g - omega_o_;
             if (omega_i.z <= 0.0 || og <= 0.0) continue;
             const double cos_power = lobe_.alpha == 0.0f ? omega_i.z : std::pow(omega_i.z, 1.0 - lobe_.alpha);
             const double length = std::sqrt(length2), weight = point.share * cos_power * length;
@@ -149,7 +121,6 @@ private:
     glm::dvec3 omega_o_, mirror_, axis1_, axis2_;
     LobeMap map_;
     double shift_; ///< of the level, as a factor of variance
-    bool is_narrow_;
 };
 
 /// The plane of view of an azimuth node.

@@ -29,8 +29,6 @@ from .sun_split import Sun, shade_suns, split_suns
 #: Variance per axis of a lookup at level l of the spherical pyramid, in 4^l (2/N)^2 steradian: .75 of the
 #: level and what bilinear interpolation adds, 1/6 on a face and about .1 on the sphere.
 SPHERICAL_VARIANCE = 0.85
-#: Narrower slope of a brushed lobe up to which two points make a sample's mean.
-WIDE_LOBE = 0.2
 
 
 @dataclass(frozen=True)
@@ -72,6 +70,12 @@ def spherical_level(variance: npt.ArrayLike, face_texels: int) -> Array:
     return np.where(share < 1, share, 1 + 0.5 * np.log2(np.maximum(share, 1)))
 
 
+def has_view_table(lobe: LobeLike) -> bool:
+    """Whether samples are placed once for every view of a table, else at every point."""
+    mx, my = slopes(lobe)
+    return max(mx, my) <= MOST_VIEW_ASPECT * min(mx, my)
+
+
 def place_means(omega_o: Array, lobe: LobeLike, samples: int, rows: Array) -> tuple[Means, Array]:
     """Means of every sample at local views, and the aspects that chose the mixtures."""
     mx, my = slopes(lobe)
@@ -79,8 +83,7 @@ def place_means(omega_o: Array, lobe: LobeLike, samples: int, rows: Array) -> tu
     axes = principal_axes(matrix)
     rho = axes[0] / axes[1]
     mixture = mixture_at(rows, samples, nearest_aspect(rho))
-    is_narrow = mx != my and min(mx, my) <= WIDE_LOBE
-    means_of = two_point_means if is_narrow else corner_means
+    means_of = corner_means if has_view_table(lobe) else two_point_means
     return means_of(omega_o, lobe, mixture, axes, stretch), rho
 
 
@@ -95,7 +98,7 @@ def matched_lookups(
     """
     mx, my = slopes(lobe)
     view = frame.omega_o
-    if max(mx, my) <= MOST_VIEW_ASPECT * min(mx, my):
+    if has_view_table(lobe):
         axes_of = _mirror_axes if mx == my else _carried_axes
         near = nearest_view(view, is_round=mx == my)
         means, rho = place_means(near, lobe, samples, rows)
