@@ -26,15 +26,6 @@ mat3 frame_from_tangent(vec3 n, vec3 t, float handedness) {
     return mat3(tangent, handedness * cross(n, tangent), n);
 }
 
-// The frame of the unit vector `n` whose tangent is the unit vector `t`, bent into the surface; `spare` serves where t is along n.
-// Unit t and n need one step of what frame_from_tangent does in two.
-mat3 frame_from_unit_tangent(vec3 n, vec3 t, vec3 spare, float handedness) {
-    float along = dot(n, t);
-    vec3 across = 1.0 - along * along > 1e-4 ? t - along * n : spare - dot(n, spare) * n;
-    vec3 tangent = across * inversesqrt(max(dot(across, across), 1e-36));
-    return mat3(tangent, handedness * cross(n, tangent), n);
-}
-
 // Tangent along growing longitude about y, cross(y, n): smooth but at the two poles, where orthonormal_basis serves.
 mat3 longitude_frame(vec3 n) {
     float length2 = n.x * n.x + n.z * n.z;

@@ -5,6 +5,8 @@
 #include "lib/frame.glsl"
 #include "probe/items.glsl"
 
+void put(PackedFrame frame) { put(mat3(frame.tangent, frame.handedness * cross(frame.normal, frame.tangent), frame.normal)); }
+
 void run() {
     vec4 a = argument(0u);
     vec4 b = argument(1u);
@@ -22,10 +24,6 @@ void run() {
     case PROBE_HAS_SURFACE: put(has_surface(surface) ? 1u : 0u); break;
     case PROBE_UNPACK_MATERIAL: put(unpack_material(surface)); break;
     case PROBE_UNPACK_NORMAL: put(unpack_normal(surface)); break;
-    case PROBE_UNPACK_FRAME: {
-        PackedFrame frame = unpack_frame(surface);
-        put(mat3(frame.tangent, frame.handedness * cross(frame.normal, frame.tangent), frame.normal));
-        break;
-    }
+    case PROBE_UNPACK_FRAME: put(unpack_frame(surface)); break;
     }
 }

@@ -41,6 +41,17 @@ vec3 facing_normal(vec3 n, vec3 omega_o) {
     return cos_o < least ? normalize(n + (least - cos_o) * omega_o) : n;
 }
 
+// The frame of the bent normal. Its tangent and the packed one are unit vectors: one step of what frame_from_tangent does in two
+// will do. Where the normal was bent until it lies along the tangent, the old normal lies in the surface.
+mat3 facing_frame(PackedFrame packed_frame, vec3 omega_o) {
+    vec3 n = facing_normal(packed_frame.normal, omega_o);
+    vec3 t = packed_frame.tangent;
+    float along = dot(n, t);
+    vec3 across = 1.0 - along * along > 1e-4 ? t - along * n : packed_frame.normal - dot(n, packed_frame.normal) * n;
+    vec3 tangent = across * inversesqrt(max(dot(across, across), 1e-36));
+    return mat3(tangent, packed_frame.handedness * cross(n, tangent), n);
+}
+
 PointToShade load_point() {
     PointToShade point;
     if (SOURCE == SOURCE_POINTS) {
@@ -66,10 +77,7 @@ PointToShade load_point() {
     point.omega_o = -pixel_ray(view, vec2(point.pixel));
     point.is_seen = true; // see facing_normal
     if (HAS_TANGENT) {
-        PackedFrame packed_frame = unpack_frame(surface);
-        vec3 normal = facing_normal(packed_frame.normal, point.omega_o);
-        // Where the normal was bent until it lies along the tangent, the old normal lies in the surface.
-        point.frame = frame_from_unit_tangent(normal, packed_frame.tangent, packed_frame.normal, packed_frame.handedness);
+        point.frame = facing_frame(unpack_frame(surface), point.omega_o);
     } else {
         point.frame = longitude_frame(facing_normal(unpack_normal(surface), point.omega_o));
     }

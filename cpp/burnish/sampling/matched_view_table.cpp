@@ -29,8 +29,13 @@ LobeMap map_lobe(glm::dvec2 roughness, glm::dvec3 omega_o, glm::dvec2 e) {
     const double floored = std::max(omega_o.z, 0.03), c2 = floored * floored + glm::dot(along, along);
     const double p = 4.0 * m2.x * (e2.x + e2.y * c2), s = 4.0 * m2.y * (e2.y + e2.x * c2);
     const double area = 4.0 * roughness.x * roughness.y, off = area * e.x * e.y * (1.0 - c2);
-    const double major2 = 0.5 * (p + s) + std::hypot(0.5 * (p - s), off), product = area * std::sqrt(c2);
-    const double angle = 0.5 * std::atan2(off, 0.5 * (p - s));
+    const double half_sum = 0.5 * (p + s), half_difference = 0.5 * (p - s);
+    const double radius = std::hypot(half_difference, off), major2 = half_sum + radius;
+    const double product = area * std::sqrt(c2);
+    // Of equal axes every pair would do: then the first is the plane of view, not what rounding makes of it.
+    const bool is_round = radius <= 2e-12 * half_sum;
+    const double angle =
+        is_round ? std::atan2(e.y * roughness.y, e.x * roughness.x) : 0.5 * std::atan2(off, half_difference);
     const glm::dvec2 v1(std::cos(angle), std::sin(angle));
     return {roughness * v1, roughness * glm::dvec2(-v1.y, v1.x), std::max(major2 / product, 1.0),
             area * product / major2};
