@@ -93,8 +93,8 @@ def matched_lookups(
     """Place the mixture of one count at surface points (maths.md, section 6).
 
     The spherical pyramid is the same everywhere: nothing but the directions' rotation depends on the frame.
-    Samples depend on the lobe and the view in its frame: they are those of the nearest view of a table, carried
-    to the mirror direction of the view itself, unless the lobe's aspect exceeds MOST_VIEW_ASPECT.
+    Samples depend on the lobe and the view in its frame: they are those of the nearest view of a table,
+    carried to the mirror direction of the view itself, unless the lobe's aspect exceeds MOST_VIEW_ASPECT.
     """
     mx, my = slopes(lobe)
     view = frame.omega_o
@@ -120,7 +120,7 @@ def _mirror_axes(omega_o: Array) -> Array:
 
 
 def _carried_axes(omega_o: Array) -> Array:
-    """Images of the local axes under the shortest rotation from the normal to the mirror direction, as rows."""
+    """Local axes under the shortest rotation from the normal to the mirror direction, as rows."""
     x, y, z = -omega_o[..., 0], -omega_o[..., 1], omega_o[..., 2]
     share = 1 / (1 + z)
     return np.stack(
