@@ -23,8 +23,8 @@ struct MixtureView {
     vec2 fresnel;        // F = x + y (1 - o.h)^5 over all channels: weighs directions within a component
 };
 
-// Of the linear map's variance, what a narrow component has: the reflection's bend takes the rest.
-const float NARROW_VARIANCE = 0.95;
+// Of the linear map's variance, what a component has.
+const float VARIANCE_SHARE = 0.95;
 
 struct LobeAxes {
     vec2 v1, v2; // unit circle of slopes to principal axes on the map: columns of V
@@ -191,11 +191,7 @@ Lookup place_wide(LobeView v, MixtureView view, Pair pair, vec3 d, float og) {
     add_point(v, view, d + across - along, 5.0 / 24.0, component);
     add_point(v, view, d - across + along, 5.0 / 24.0, component);
     add_point(v, view, d + across + along, 5.0 / 24.0, component);
-    float variance = -0.34657359 * log2(dot(component.direction, component.direction) / (component.gain * component.gain));
-    float center2 = 1.0 + dot(d, d);
-    float least = 0.5 * pair.s * pair.s * view.linear * og / (center2 * center2);
-    variance = clamp(variance, max(least, 1e-7), 1.0);
-    return finish_component(v, component, pair.weight, view.share * variance);
+    return finish_component(v, component, pair.weight, pair.variance * og);
 }
 
 void place_pair(LobeView v, MixtureView view, vec4 entry, out Lookup one, out Lookup other) {
@@ -211,14 +207,14 @@ void place_pair(LobeView v, MixtureView view, vec4 entry, out Lookup one, out Lo
     pair.lengths = length2 * inverse_length;
     pair.inverse = inverse_length * inverse_length;
     pair.deviation = pair.s * view.oh;
+    // (s b)^2 (o.h) cos_h^3/c, the variance of the linear map, with the lengths at both points; og is left to each.
+    pair.variance = VARIANCE_SHARE * s2 * view.share * view.linear * (pair.inverse.x * pair.inverse.y);
     float od = entry.x * view.o1 + entry.y * view.o2;
     if (HAS_WIDE_COMPONENTS) {
         one = place_wide(v, view, pair, pair.d, v.local_o.z + od);
         other = place_wide(v, view, pair, -pair.d, v.local_o.z - od);
         return;
     }
-    // (s b)^2 (o.h) cos_h^3/c, the variance of the linear map at the centre; og is left to each.
-    pair.variance = NARROW_VARIANCE * s2 * view.share * view.linear * (pair.inverse.x * pair.inverse.y);
     pair.bend = 1.0 - s2 * view.p2;
     one = place_narrow(v, view, pair, pair.d, v.local_o.z + od, pair.lengths, pair.inverse);
     other = place_narrow(v, view, pair, -pair.d, v.local_o.z - od, pair.lengths.yx, pair.inverse.yx);

@@ -1,21 +1,43 @@
 // Radiance of one lobe by the variance-matched sampler, from a table of samples that were placed for every view when the material
-// changed (build_matched_view_table): what is left to do at a point is to turn them to its mirror direction.
+// changed (build_matched_view_table): what is left to do at a point is to mirror its view at their half-vectors.
 #ifndef BURNISH_SHADE_MATCHED_BY_VIEW
 #define BURNISH_SHADE_MATCHED_BY_VIEW
 
 #include "shade/matched.glsl"
 
-// (T1, T2, I): the mirror direction I, T1 across it in the plane of view `e`, T2 across both. Environment space.
-mat3 mirror_frame(LobeView v, vec3 e) {
-    vec3 plane = e.x * v.frame[0] + e.y * v.frame[1];
-    return mat3(v.local_o.z * plane + e.z * v.frame[2], e.x * v.frame[1] - e.y * v.frame[0], 2.0 * v.local_o.z * v.frame[2] - v.omega_o);
+// What a table's slopes refer to at a point, and its row nearest to the view.
+struct TableView {
+    vec3 axis1, axis2; // environment space, unit, across the normal
+    vec2 o;            // the view along them
+    int row;
+};
+
+TableView view_of_table(LobeView v, uint azimuths) {
+    vec3 plane = view_plane(v.local_o);
+    float root = sqrt(clamp(v.local_o.z, 0.0, 1.0));
+    TableView view;
+    view.axis1 = plane.x * v.frame[0] + plane.y * v.frame[1];
+    view.axis2 = plane.x * v.frame[1] - plane.y * v.frame[0];
+    view.o = vec2(plane.z, 0.0);
+    view.row = int(root * float(MATCHED_ROWS - 1u) + 0.5);
+    if (HAS_TANGENT && azimuths > 1u) {
+        // A view from the other side is half a turn away.
+        float side = plane.y < 0.0 ? -1.0 : 1.0;
+        float azimuth = 0.5 - 0.5 * side * plane.x / (abs(plane.x) + abs(plane.y));
+        view.axis1 = side * v.frame[0];
+        view.axis2 = side * v.frame[1];
+        view.o = side * v.local_o.xy;
+        view.row = int(root * float(MATCHED_BRUSHED_VIEWS - 1u) + 0.5) * int(MATCHED_AZIMUTHS) + int(azimuth * float(MATCHED_AZIMUTHS - 1u) + 0.5);
+    }
+    return view;
 }
 
-// The entry's lookup at this view: see build_matched_view_table.
-Lookup place_by_view(mat3 axes, float layer, vec4 entry, float schlick) {
+// The half-vector g = n + slope mirrors the view to 2 (o.g) g - |g|^2 o.
+Lookup place_by_view(LobeView v, TableView view, vec4 entry, float schlick) {
     Lookup lookup;
-    vec3 direction = entry.x * axes[0] + entry.y * axes[1] + (0.5 - 0.5 * dot(entry.xy, entry.xy)) * axes[2];
-    lookup.aim = aim_at_map(direction, layer, entry.w);
+    vec3 g = v.frame[2] + entry.x * view.axis1 + entry.y * view.axis2;
+    float og = v.local_o.z + dot(entry.xy, view.o);
+    lookup.aim = aim_at_map(2.0 * og * g - (1.0 + dot(entry.xy, entry.xy)) * v.omega_o, v.layer, entry.w);
     lookup.weight = entry.z;
     lookup.schlick = schlick;
     lookup.density = 0.0;
@@ -23,36 +45,17 @@ Lookup place_by_view(mat3 axes, float layer, vec4 entry, float schlick) {
 }
 
 #define VIEW_ENTRY(k) imageLoad(sample_table, row + k)
-#define PLACE_BY_VIEW(k, c, lookup) if (SAMPLE_COUNT > uint(k)) lookup = place_by_view(axes, v.layer, VIEW_ENTRY(k), schlick[c]);
+#define PLACE_BY_VIEW(k, c, lookup) if (SAMPLE_COUNT > uint(k)) lookup = place_by_view(v, view, VIEW_ENTRY(k), schlick[c]);
 #define GATHER_BY_VIEW(a, b, c, d)                                                                                     \
     if (HAS_FRESNEL && SAMPLE_COUNT > uint(a)) schlick = VIEW_ENTRY(int(SAMPLE_COUNT) + a / 4);                        \
     PLACE_BY_VIEW(a, 0, l0) PLACE_BY_VIEW(b, 1, l1) PLACE_BY_VIEW(c, 2, l2) PLACE_BY_VIEW(d, 3, l3)                    \
     ADD(a, l0) ADD(b, l1) ADD(c, l2) ADD(d, l3)
 
-// Axes of a table by view, and its row nearest to the view: see build_matched_view_table.
-mat3 axes_by_view(LobeView v, uint azimuths, out int row) {
-    vec3 plane = view_plane(v.local_o);
-    mat3 axes = mirror_frame(v, plane);
-    float root = sqrt(clamp(v.local_o.z, 0.0, 1.0));
-    if (!HAS_TANGENT) {
-        row = int(root * float(MATCHED_ROWS - 1u) + 0.5);
-        return axes;
-    }
-    bool is_round = azimuths == 1u;
-    vec2 e = plane.y < 0.0 ? -plane.xy : plane.xy;
-    float azimuth = is_round ? 0.0 : (0.5 - 0.5 * e.x / (abs(e.x) + e.y)) * float(MATCHED_AZIMUTHS - 1u);
-    float view = root * float((is_round ? MATCHED_ROWS : MATCHED_BRUSHED_VIEWS) - 1u);
-    row = int(view + 0.5) * int(azimuths) + int(azimuth + 0.5);
-    vec2 turn = is_round ? vec2(1.0, 0.0) : e;
-    return mat3(turn.x * axes[0] - turn.y * axes[1], turn.y * axes[0] + turn.x * axes[1], axes[2]);
-}
-
 LobeSums gather_by_view(LobeView v, uint table_begin, uint azimuths) {
     LobeSums sums = LobeSums(vec3(0.0), vec3(0.0), 0.0, 0.0, 0.0);
     const uint entries = SAMPLE_COUNT + (HAS_FRESNEL ? (SAMPLE_COUNT + 3u) / 4u : 0u);
-    int row;
-    mat3 axes = axes_by_view(v, azimuths, row);
-    row = int(table_begin) + int(entries) * row;
+    TableView view = view_of_table(v, azimuths);
+    int row = int(table_begin) + int(entries) * view.row;
     vec4 schlick = vec4(0.0);
     Lookup l0, l1, l2, l3;
     GATHER_BY_VIEW(0, 1, 2, 3) GATHER_BY_VIEW(4, 5, 6, 7) GATHER_BY_VIEW(8, 9, 10, 11) GATHER_BY_VIEW(12, 13, 14, 15)

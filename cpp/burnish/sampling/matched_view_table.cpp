@@ -19,7 +19,7 @@ constexpr double LEAST_GAIN = 1e-9; ///< a component that reflects less lies bel
 struct LobeMap {
     glm::dvec2 axis1, axis2;
     double rho;    ///< of the principal axes
-    double linear; ///< b^2/c: a component's variance over s^2 (o.h) cos_h^3
+    double linear; ///< b^2/c
 };
 
 /// Widths of the mirrored lobe on the sphere (maths: section 6): V of the singular value decomposition of
@@ -52,6 +52,8 @@ constexpr Point POINTS[] = {{0.0, 0.0, 4.0 / 24.0},
                             {CORNER, -CORNER, 5.0 / 24.0},
                             {-CORNER, CORNER, 5.0 / 24.0},
                             {-CORNER, -CORNER, 5.0 / 24.0}};
+/// Of the linear map's variance, what a component has.
+constexpr double VARIANCE_SHARE = 0.95;
 
 struct Mean {
     double base = 0.0, schlick = 0.0, gain = 0.0;
@@ -73,11 +75,6 @@ public:
         omega_o_ = glm::dvec3(sine * e, cos_o);
         map_ = map_lobe({lobe.roughness_x, lobe.roughness_y}, omega_o_, e);
         shift_ = std::exp2(2.0 * level_shift(lobe, map_.rho));
-        mirror_ = glm::dvec3(-sine * e, cos_o);
-        const glm::dvec3 t1(cos_o * e, sine), t2(-e.y, e.x, 0.0);
-        const glm::dvec2 turn = view_azimuths(lobe) > 1 ? e : glm::dvec2(1.0, 0.0);
-        axis1_ = turn.x * t1 - turn.y * t2;
-        axis2_ = turn.y * t1 + turn.x * t2;
     }
 
     double rho() const { return map_.rho; }
@@ -88,18 +85,27 @@ public:
         const Mean mean = mean_of(slope, mixture.z);
         if (mean.gain < LEAST_GAIN) return {glm::vec4(0.0f), 0.0f};
         const double length = glm::length(mean.direction);
-        const double og = std::max(glm::dot(omega_o_, glm::dvec3(slope, 1.0)), 0.0);
-        const double center2 = 1.0 + glm::dot(slope, slope);
-        const double linear = mixture.z * mixture.z * map_.linear * og / (center2 * center2);
-        const double variance = std::clamp(-std::log(std::min(length / mean.gain, 1.0)), 0.5 * linear, 1.0);
-        const glm::dvec3 direction = mean.direction / length;
-        const double near = std::max(1.0 + glm::dot(direction, mirror_), 1e-6);
-        return {glm::vec4(glm::dot(direction, axis1_) / near, glm::dot(direction, axis2_) / near,
-                          mixture.w * mean.base, spherical_level(variance * shift_, lobe_.face_size)),
+        const double variance = std::min(variance_of(slope, mixture.z), 1.0);
+        const glm::dvec3 half_vector = mean.direction / length + omega_o_;
+        return {glm::vec4(half_vector.x / half_vector.z, half_vector.y / half_vector.z, mixture.w * mean.base,
+                          spherical_level(variance * shift_, lobe_.face_size)),
                 float(mean.schlick / mean.base)};
     }
 
 private:
+    /// VARIANCE_SHARE of what the linear map makes of the component, (s b)^2 (o.h) cos_h^3/c. The lengths are
+    /// of the points one deviation to either side along the direction in which cos_i changes most.
+    double variance_of(glm::dvec2 slope, double s) const {
+        const glm::dvec2 o(omega_o_), change(glm::dot(o, map_.axis1) / map_.rho, glm::dot(o, map_.axis2));
+        const double steepness = glm::length(change);
+        const glm::dvec2 u = steepness > 1e-7 ? change / steepness : glm::dvec2(0.0, 1.0);
+        const glm::dvec2 h = s * (u.x / map_.rho * map_.axis1 + u.y * map_.axis2);
+        const double og = std::max(omega_o_.z + glm::dot(o, slope), 0.0);
+        const glm::dvec2 one = slope + h, other = slope - h;
+        return VARIANCE_SHARE * s * s * map_.linear * og /
+               ((1.0 + glm::dot(one, one)) * (1.0 + glm::dot(other, other)));
+    }
+
     /// Means over a component of deviation s/rho and s along the principal axes.
     Mean mean_of(glm::dvec2 slope, double s) const {
         Mean mean;
@@ -123,7 +129,7 @@ private:
     }
 
     MatchedLobe lobe_;
-    glm::dvec3 omega_o_, mirror_, axis1_, axis2_;
+    glm::dvec3 omega_o_;
     LobeMap map_;
     double shift_; ///< of the level, as a factor of variance
 };

@@ -37,13 +37,13 @@ uint32_t view_row_entries(const MatchedLobe& lobe);
 
 uint64_t view_table_entries(const MatchedLobe& lobe);
 
-/// Rows for views times azimuths, azimuths innermost. Of MATCHED_ROWS (round) or MATCHED_BRUSHED_VIEWS views,
-/// row j is for cos_o = (j/(views-1))^2. Azimuth k of a brushed lobe is where the plane of view, e with ey >=
-/// 0 in the lobe's axes, has (1 - ex/(|ex| + ey))/2 = k/(MATCHED_AZIMUTHS-1): a view from the other side has
-/// the same samples. An entry is (p1, p2, weight, level): the lookup goes to 2 p1 U1 + 2 p2 U2 + (1 - p1^2 -
-/// p2^2) I, with I the mirror direction. U1 and U2 are the lobe's axes, carried from the normal to I along
-/// the plane of view; of round lobes U1 lies in that plane, on the normal's side, and U2 across both. A
-/// Schlick term is the mean of (1 - o.h)^5 over a component.
+/// Rows for views times azimuths, azimuths innermost: row j of the views is for cos_o = (j/(views-1))^2.
+/// Azimuth k of a brushed lobe is where the plane of view, e with ey >= 0 in the lobe's axes, has (1 -
+/// ex/(|ex| + ey))/2 = k/(MATCHED_AZIMUTHS-1); a view from the other side has the same samples half a turn
+/// away. An entry is (x, y, weight, level): the lookup goes to where the half-vector of slope (x, y) mirrors
+/// the view of a point, in the lobe's axes, or, of a round lobe, along the plane of view and across it.
+/// Slopes vary less from view to view than directions do, so that the nearest row will do. A Schlick term is
+/// the mean of (1 - o.h)^5 over a component.
 std::vector<glm::vec4> build_matched_view_table(const MatchedLobe& lobe);
 
 } // namespace burnish

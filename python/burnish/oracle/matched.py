@@ -8,7 +8,7 @@ import numpy as np
 import numpy.typing as npt
 
 from .albedo import blend_albedo, directional_albedo
-from .arrays import Array, as_array, dot
+from .arrays import Array, as_array, dot, normalize
 from .cube_map import PaddedCube, pad_cube, sample_cube
 from .estimator import LocalFrame, local_frame
 from .kurt_lobe import LobeLike, slopes
@@ -93,17 +93,16 @@ def matched_lookups(
     """Place the mixture of one count at surface points (maths.md, section 6).
 
     The spherical pyramid is the same everywhere: nothing but the directions' rotation depends on the frame.
-    Samples depend on the lobe and the view in its frame: they are those of the nearest view of a table,
-    carried to the mirror direction of the view itself, unless the lobe's aspect exceeds MOST_VIEW_ASPECT.
+    Samples depend on the lobe and the view in its frame: half-vectors, weights and levels are those of the
+    nearest view of a table, unless the lobe's aspect exceeds MOST_VIEW_ASPECT.
     """
     mx, my = slopes(lobe)
     view = frame.omega_o
     if has_view_table(lobe):
-        axes_of = _mirror_axes if mx == my else _carried_axes
         near = nearest_view(view, is_round=mx == my)
         means, rho = place_means(near, lobe, samples, rows)
-        local = dot(means.direction[..., None, :], axes_of(near)[..., None, :, :])
-        direction = np.einsum("...nk,...kc->...nc", local, axes_of(view))
+        h = normalize(near[..., None, :] + means.direction)
+        direction = 2 * dot(view[..., None, :], h)[..., None] * h - view[..., None, :]
     else:
         means, rho = place_means(view, lobe, samples, rows)
         direction = means.direction
@@ -111,26 +110,6 @@ def matched_lookups(
     level = spherical_level(4**shift * means.variance, face_texels)
     last = 0.5 * np.log2(face_texels)
     return Lookups(frame.to_world(direction), np.clip(level, 0, last), means.gains)
-
-
-def _mirror_axes(omega_o: Array) -> Array:
-    """Rows T1, T2 and I of local views, (..., 3, 3)."""
-    _, t1, t2, _ = lobe_map(omega_o, 1.0, 1.0)
-    return np.stack([t1, t2, omega_o * [-1.0, -1.0, 1.0]], axis=-2)
-
-
-def _carried_axes(omega_o: Array) -> Array:
-    """Local axes under the shortest rotation from the normal to the mirror direction, as rows."""
-    x, y, z = -omega_o[..., 0], -omega_o[..., 1], omega_o[..., 2]
-    share = 1 / (1 + z)
-    return np.stack(
-        [
-            np.stack([1 - share * x * x, -share * x * y, -x], axis=-1),
-            np.stack([-share * x * y, 1 - share * y * y, -y], axis=-1),
-            np.stack([x, y, z], axis=-1),
-        ],
-        axis=-2,
-    )
 
 
 @dataclass(frozen=True)

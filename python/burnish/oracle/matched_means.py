@@ -19,10 +19,8 @@ _CORNER = np.sqrt(1.2)
 #: distance of sqrt(2.4) they give wide lobes and dielectrics less error than other rules of up to nine.
 CORNER_POINTS = _CORNER * np.array([[0, 0], [1, 1], [1, -1], [-1, 1], [-1, -1]])
 CORNER_WEIGHTS = np.array([4, 5, 5, 5, 5]) / 24
-# The variance of a sample is at least this share of what the linear map makes of it.
-_LEAST_VARIANCE = 0.5
-#: Of the linear map's variance, what a sample of a narrow lobe has: the reflection's bend takes the rest.
-NARROW_VARIANCE = 0.95
+#: Of the linear map's variance, what a sample has.
+VARIANCE_SHARE = 0.95
 
 Axes = tuple[Array, Array, Array, Array]
 
@@ -74,21 +72,56 @@ def _sum_points(omega_o: Array, lobe: LobeLike, g: Array, shares: Array, bend: A
     )
 
 
-def _normalized(omega_o: Array, gain: Array, mean: Array) -> tuple[Array, Array]:
-    """Unit mean directions and |M|/G; where nothing is reflected the mirror direction and 1."""
+def _mean_direction(omega_o: Array, gain: Array, mean: Array) -> Array:
+    """Unit mean directions; where nothing is reflected the mirror direction."""
     seen = gain > _SMALL
     length = np.where(seen, np.linalg.norm(mean, axis=-1), 1.0)
     mirror = omega_o[..., None, :] * [-1.0, -1.0, 1.0]
-    direction = np.where(seen[..., None], mean / length[..., None], mirror)
-    return direction, np.where(seen, length / np.where(seen, gain, 1.0), 1.0)
+    direction: Array = np.where(seen[..., None], mean / length[..., None], mirror)
+    return direction
+
+
+@dataclass(frozen=True)
+class _Pair:
+    """The points one deviation to either side of a sample's centre along h, the direction of half-vectors in
+    which cos_i changes most for the covariance s^2 (along along^T/rho^2 + across across^T).
+    """
+
+    g: Array  # (..., n, 2, 3), 1 along the normal
+    center: Array  # (..., n, 2), slope
+    p: Array  # (..., 1, 2), one deviation of s = 1 across h, o.p = 0
+
+
+def _pair(omega_o: Array, lobe: LobeLike, mixture: Mixture, axes: Axes) -> _Pair:
+    a, b = axes[0][..., None], axes[1][..., None]
+    along, across = _unit_axes(lobe, axes)
+    tangential = omega_o[..., None, :2]
+    change = np.stack([dot(tangential, along) * b / a, dot(tangential, across)], axis=-1)
+    steepness = np.linalg.norm(change, axis=-1, keepdims=True)
+    u = np.where(steepness > 1e-7, change / np.where(steepness > 1e-7, steepness, 1.0), [0.0, 1.0])
+    h = u[..., :1] * (b / a)[..., None] * along + u[..., 1:] * across
+    p = -u[..., 1:] * (b / a)[..., None] * along + u[..., :1] * across
+    center = mixture.y1[..., None] * along + mixture.y2[..., None] * across
+    offset = mixture.s[..., None] * h
+    slope = np.stack([center + offset, center - offset], axis=-2)
+    return _Pair(np.concatenate([slope, np.ones((*slope.shape[:-1], 1))], axis=-1), center, p)
+
+
+def _variance(omega_o: Array, mixture: Mixture, axes: Axes, stretch: Array, pair: _Pair) -> Array:
+    """Variance per axis: .95 of the linear map's, (s b)^2 (o.h) cos_h^3/c with |g|^4 the product of the pair's."""
+    product = np.maximum(dot(omega_o[..., None, :2], pair.center) + omega_o[..., None, 2], 0)
+    lengths = np.prod(dot(pair.g, pair.g), axis=-1)
+    linear = (mixture.s * axes[1][..., None]) ** 2 * product / lengths / stretch[..., None]
+    variance: Array = np.clip(VARIANCE_SHARE * linear, 1e-20, 1.0)
+    return variance
 
 
 def corner_means(omega_o: Array, lobe: LobeLike, mixture: Mixture, axes: Axes, stretch: Array) -> Means:
-    """Weight, direction and width of each sample from its centre and four corners.
+    """Weight and direction of each sample from its centre and four corners.
 
     With g = F cos_i^(1-alpha) cos_o^-alpha/cos_h, 0 below the horizon, G = E[g] and M = E[g omega_i]: the
-    direction is M/|M|, the weight G for each channel, the variance -ln(|M|/G) with F over all channels.
-    The variance is at least half of the linear map's at the centre, (s b)^2 (o.h) cos_h^3/c.
+    direction is M/|M| with F over all channels, the weight G for each channel. The spread of the points'
+    directions, -ln(|M|/G), is no better a variance than the linear map's: it errs 5 to 25 % more.
 
     Parameters
     ----------
@@ -106,44 +139,23 @@ def corner_means(omega_o: Array, lobe: LobeLike, mixture: Mixture, axes: Axes, s
     slope = y1[..., None] * along[..., None, :] + y2[..., None] * across[..., None, :]
     g = np.concatenate([slope, np.ones((*slope.shape[:-1], 1))], axis=-1)
     gains, gain, mean = _sum_points(omega_o, lobe, g, CORNER_WEIGHTS, np.ones(1))
-    direction, share = _normalized(omega_o, gain, mean)
-    center = g[..., 0, :]
-    product = np.maximum(dot(omega_o[..., None, :], center), 0)
-    linear = (mixture.s * b) ** 2 * product / dot(center, center) ** 2 / stretch[..., None]
-    variance = np.maximum(-np.log(np.clip(share, 1e-6, 1.0)), _LEAST_VARIANCE * linear)
-    return Means(mixture.w[..., None] * gains, direction, np.clip(variance, 1e-20, 1.0))
+    variance = _variance(omega_o, mixture, axes, stretch, _pair(omega_o, lobe, mixture, axes))
+    return Means(mixture.w[..., None] * gains, _mean_direction(omega_o, gain, mean), variance)
 
 
 def two_point_means(omega_o: Array, lobe: LobeLike, mixture: Mixture, axes: Axes, stretch: Array) -> Means:
-    """Weight, direction and width of each sample of a narrow lobe from two points.
+    """Weight and direction of each sample of a narrow lobe from two points, one deviation to either side.
 
-    One deviation to either side of the centre along h, the direction of half-vectors in which cos_i changes
-    most for the sample's covariance s^2 (along along^T/rho^2 + across across^T): exact to second order in the
-    product of weight and direction. Across h, along p with o.p = 0, the reflection bends: on average
-    q = 2 (o.g)/|g|^2 is shorter there by s^2 |p|^2. The variance is .95 of the linear map's, with |g|^4 the
-    product of the two points'.
+    Exact to second order in the product of weight and direction along h. Across it, along p, the reflection
+    bends: on average q = 2 (o.g)/|g|^2 is shorter there by s^2 |p|^2.
 
     Parameters
     ----------
     omega_o, axes, stretch
         As of `corner_means`.
     """
-    a, b = axes[0][..., None], axes[1][..., None]
-    along, across = _unit_axes(lobe, axes)
-    tangential = omega_o[..., None, :2]
-    change = np.stack([dot(tangential, along) * b / a, dot(tangential, across)], axis=-1)
-    steepness = np.linalg.norm(change, axis=-1, keepdims=True)
-    u = np.where(steepness > 1e-7, change / np.where(steepness > 1e-7, steepness, 1.0), [0.0, 1.0])
-    h = u[..., :1] * (b / a)[..., None] * along + u[..., 1:] * across
-    p = -u[..., 1:] * (b / a)[..., None] * along + u[..., :1] * across
-    center = mixture.y1[..., None] * along + mixture.y2[..., None] * across
-    offset = mixture.s[..., None] * h
-    slope = np.stack([center + offset, center - offset], axis=-2)
-    g = np.concatenate([slope, np.ones((*slope.shape[:-1], 1))], axis=-1)
-    bend = 1 - mixture.s**2 * dot(p, p)
-    gains, gain, mean = _sum_points(omega_o, lobe, g, np.ones(2), bend[..., None])
-    direction, _ = _normalized(omega_o, gain, mean)
-    product = np.maximum(dot(tangential, center) + omega_o[..., None, 2], 0)
-    lengths = dot(g[..., 0, :], g[..., 0, :]) * dot(g[..., 1, :], g[..., 1, :])
-    variance = NARROW_VARIANCE * (mixture.s * b) ** 2 * product / lengths / stretch[..., None]
-    return Means(mixture.w[..., None] * gains, direction, np.clip(variance, 1e-20, 1.0))
+    pair = _pair(omega_o, lobe, mixture, axes)
+    bend = 1 - mixture.s**2 * dot(pair.p, pair.p)
+    gains, gain, mean = _sum_points(omega_o, lobe, pair.g, np.ones(2), bend[..., None])
+    variance = _variance(omega_o, mixture, axes, stretch, pair)
+    return Means(mixture.w[..., None] * gains, _mean_direction(omega_o, gain, mean), variance)

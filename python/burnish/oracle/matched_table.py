@@ -102,7 +102,7 @@ def nearest_view(omega_o: npt.ArrayLike, *, is_round: bool) -> Array:
     omega_o = as_array(omega_o)
     last = (TABLE_ROWS if is_round else BRUSHED_VIEWS) - 1
     row = np.floor(np.sqrt(np.clip(omega_o[..., 2], 0, 1)) * last + 0.5)
-    cosine = np.maximum((row / last) ** 2, 1e-4)
+    cosine = np.clip((row / last) ** 2, 1e-4, 1 - 1e-12)  # a trace of a sine keeps the azimuth
     sine = np.hypot(omega_o[..., 0], omega_o[..., 1])
     # A view along the normal has no azimuth: the first axis serves.
     x = np.where(sine > 0, omega_o[..., 0], 1.0)
