@@ -14,6 +14,9 @@ SHARED_CONST uint MAX_SHADE_CLASSES = 32u;
 SHARED_CONST uint GROUPS_PER_ROW = 32768u;
 // Samples that fit into specialization constants; beyond, the table is read from a buffer.
 SHARED_CONST uint MAX_CONSTANT_SAMPLES = 64u;
+// Lookups of all lobes of a point that are written out one by one; beyond, they are a loop: 56 take a CPU driver about 2 s to
+// compile, 240 took 18 s.
+SHARED_CONST uint MAX_UNROLLED_SAMPLES = 80u;
 
 // Nodes of albedo tables: cosines of the view at (i/(ALBEDO_COS_NODES-1))^2; roughness evenly in its log up to 1.
 SHARED_CONST uint ALBEDO_COS_NODES = 128u;

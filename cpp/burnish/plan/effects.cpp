@@ -100,6 +100,9 @@ std::string describe(const ShadeClass& one, const Scene& scene, const Plan& plan
         if (std::find(some.begin(), some.end(), material) == some.end()) some.push_back(material);
     }
     std::string text = listed(visible_materials(scene), some);
+    const char* const loop = unrolls_samples(plan.settings.sampler, one.traits)
+                                 ? ""
+                                 : "; in a loop, too many samples to be written out";
     switch (one.traits.table) {
     case TableForm::none:
         break;
@@ -109,15 +112,15 @@ std::string describe(const ShadeClass& one, const Scene& scene, const Plan& plan
         break;
     case TableForm::buffer:
         if (one.traits.lobe_count > 1)
-            text += "; several lobes, samples from a buffer";
+            text += message("; several lobes, samples from a buffer", loop);
         else if (constant_count > MAX_CONSTANT_CLASSES)
             text += message("; ", constant_count, " roughnesses in the picture, more than ",
-                            MAX_CONSTANT_CLASSES, " worth a pipeline each, samples from a buffer");
+                            MAX_CONSTANT_CLASSES, " worth a pipeline each, samples from a buffer", loop);
         else
-            text += "; too many samples for constants, samples from a buffer";
+            text += message("; too many samples for constants, samples from a buffer", loop);
         break;
     case TableForm::scaled:
-        text += "; roughness varies over the surface, samples scale with it";
+        text += message("; roughness varies over the surface, samples scale with it", loop);
         break;
     case TableForm::matched:
         text += "; mixtures placed at every point by the lobe's aspect on the map";

@@ -129,6 +129,9 @@ struct Plan {
 /// More constant tables than this are read from a buffer instead: each is a pipeline to compile.
 constexpr size_t MAX_CONSTANT_CLASSES = 6;
 
+/// Whether tables that are read from a buffer are read without a loop: where all lookups of a point are few.
+bool unrolls_samples(const Sampler& sampler, const ShadeTraits& traits);
+
 /// Chooses passes and shader variants. Throws std::invalid_argument for settings out of range.
 Plan make_plan(const Scene& scene, const PlanSettings& settings, SunCache& suns);
 

@@ -86,7 +86,7 @@ vulkan::SpecializationConstants common_constants(const ShadeTraits& traits, uint
 }
 
 void add_pattern_constants(vulkan::SpecializationConstants& constants, const ShadeTraits& traits,
-                           const PlanSettings& settings, const SampleTable& table) {
+                           const PlanSettings& settings, const SampleTable& table, uint32_t buffer_count) {
     const Sampler& sampler = settings.sampler;
     const auto* regular = std::get_if<Regular>(&sampler);
     const bool is_published = regular && regular->footprint == Footprint::published;
@@ -100,6 +100,8 @@ void add_pattern_constants(vulkan::SpecializationConstants& constants, const Sha
     if (const auto* matched = std::get_if<Matched>(&sampler))
         constants.set(shared::SPEC_SAMPLE_COUNT, matched->samples)
             .set(shared::SPEC_WIDE_COMPONENTS, traits.has_wide_components);
+    if (traits.table == TableForm::buffer || traits.table == TableForm::scaled)
+        constants.set(shared::SPEC_SAMPLE_COUNT, buffer_count);
     if (traits.table != TableForm::constant) return;
     constants.set(shared::SPEC_SAMPLE_COUNT, uint32_t(table.entries.size()));
     for (uint32_t k = 0; k < table.entries.size(); ++k)
@@ -143,7 +145,8 @@ ShadePass::ShadePass(Pipelines& pipelines, const Plan& plan, const ShadeTables& 
         if (reference)
             constants.set(shared::SPEC_IS_QUADRATURE, reference->is_quadrature);
         else
-            add_pattern_constants(constants, traits, plan.settings, tables.class_tables[k]);
+            add_pattern_constants(constants, traits, plan.settings, tables.class_tables[k],
+                                  tables.class_counts[k]);
         add_lookup_constants(constants, plan.map_sets[traits.map_set]);
         const std::string shader = reference ? "shade/reference.comp" : shader_of(traits.table);
         classes_.push_back(
