@@ -38,6 +38,10 @@ glm::vec3 unit_or_zero(const glm::vec3& vector) {
     return length > 0.0 ? glm::vec3(wide / length) : glm::vec3(0.0f);
 }
 
+/// Scenes that take turns stay on the device beside the one that is drawn.
+constexpr size_t MOST_OTHER_SCENES = 3;
+constexpr uint64_t MOST_OTHER_SCENE_BYTES = 256 << 20;
+
 void add_stopped(Report& report, const vulkan::Buffer& counters) {
     static constexpr std::array<const char*, shared::GUARD_COUNT> passes = {"shade", "background",
                                                                             "reference"};
@@ -68,7 +72,7 @@ std::unique_lock<std::mutex> Renderer::enter() {
 }
 
 void Renderer::forget() {
-    scene_.reset();
+    scenes_.clear();
     maps_.clear();
     alias_environments_.clear();
     alias_ = {};
@@ -84,15 +88,29 @@ Plan Renderer::make_plan(const Scene& scene, const PlanSettings& settings) {
     return burnish::make_plan(scene, with_lookup, suns_);
 }
 
+void Renderer::forget_old_scenes() {
+    uint64_t bytes = 0;
+    size_t kept = 0;
+    for (; kept < std::min(scenes_.size(), MOST_OTHER_SCENES); ++kept) {
+        bytes += scenes_[scenes_.size() - 1 - kept].scene->memory_bytes();
+        if (bytes > MOST_OTHER_SCENE_BYTES) break;
+    }
+    scenes_.erase(scenes_.begin(), scenes_.end() - std::ptrdiff_t(kept));
+}
+
 GpuScene& Renderer::prepare_scene(const Scene& scene) {
     const uint64_t wanted = fingerprint(scene);
-    if (!scene_ || wanted != scene_fingerprint_) {
+    const auto found = std::find_if(scenes_.begin(), scenes_.end(),
+                                    [&](const CachedScene& one) { return one.fingerprint == wanted; });
+    if (found != scenes_.end()) {
+        std::rotate(found, found + 1, scenes_.end());
+    } else {
         validate(scene);
-        scene_.reset(); // its memory may be needed for the next
-        scene_ = needing_memory_for(
-            message("a scene of ", scene.meshes.size(), " meshes and ", scene.images.size(), " textures"),
-            [&] { return std::make_unique<GpuScene>(device_, scene); });
-        scene_fingerprint_ = wanted;
+        forget_old_scenes();
+        scenes_.push_back(
+            {wanted, needing_memory_for(message("a scene of ", scene.meshes.size(), " meshes and ",
+                                                scene.images.size(), " textures"),
+                                        [&] { return std::make_unique<GpuScene>(device_, scene); })});
     }
     // Objects and materials may change without the meshes: their indices are checked each time.
     for (const Object& object : scene.objects)
@@ -101,7 +119,7 @@ GpuScene& Renderer::prepare_scene(const Scene& scene) {
                                                 scene.meshes.size(), " and a material below ",
                                                 scene.materials.size(), ", got ", object.mesh, " and ",
                                                 object.material));
-    return *scene_;
+    return *scenes_.back().scene;
 }
 
 Report Renderer::start_report(const Scene& scene, const Plan& plan, const ShadeTables& tables) const {

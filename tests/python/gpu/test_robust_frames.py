@@ -191,3 +191,19 @@ def test_degenerate_geometry_makes_finite_pictures(device, spots64):
         frame = burnish.render(scene, camera, (32, 32), sampler, device=device)
         assert np.isfinite(frame.color).all() and np.isfinite(frame.normal).all()
         assert frame.report.non_finite == 0
+
+
+def test_scenes_that_take_turns_keep_their_pictures(device):
+    """More scenes than stay on the device, each with a mesh of its own; the last one's mesh then changes."""
+    radii = (0.5, 0.6, 0.7, 0.8, 0.9, 1.0)
+    view = burnish.Camera.orthographic((0, 0, 3), (0, 0, 0), half_height=1.0, near_plane=0.1, far_plane=10)
+    material = burnish.Material(emissive=1.0)
+
+    def covered(radius):
+        scene = burnish.Scene()
+        scene.add(burnish.Mesh.sphere(radius, segments=32), material)
+        return float(burnish.render(scene, view, (32, 32), device=device).alpha.sum())
+
+    first = [covered(radius) for radius in radii]
+    assert first == sorted(set(first))
+    assert [covered(radius) for radius in (*radii, *reversed(radii))] == [*first, *reversed(first)]
