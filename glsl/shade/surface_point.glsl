@@ -2,6 +2,7 @@
 #ifndef BURNISH_SHADE_SURFACE_POINT
 #define BURNISH_SHADE_SURFACE_POINT
 
+#include "lib/display.glsl"
 #include "lib/frame.glsl"
 #include "lib/kurt_lobe.glsl"
 #include "shade/guard.glsl"
@@ -125,7 +126,9 @@ mat3 lobe_frame(mat3 frame, LobeRecord record) {
 void store_radiance(PointToShade point, vec3 radiance, float alpha, uint pass_index) {
     if (!point.is_mine) return;
     if (SOURCE == SOURCE_POINTS && !point.is_seen) radiance = vec3(0.0);
-    radiance_out[point.index] = vec4(stop_non_finite(radiance, point.index, pass_index), alpha);
+    vec4 color = vec4(stop_non_finite(radiance, point.index, pass_index), alpha);
+    if (IS_DISPLAY) display_out[point.index] = display_pixel(color, push.display_scale);
+    else radiance_out[point.index] = color;
 }
 
 #endif

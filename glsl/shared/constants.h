@@ -53,9 +53,11 @@ SHARED_CONST uint BINDING_TEXEL_ALIAS = 16u;
 SHARED_CONST uint BINDING_STATISTICS = 17u;
 SHARED_CONST uint BINDING_TILE_COUNTS = 18u; // xyz: indirect dispatch, w: tiles
 SHARED_CONST uint BINDING_MAP_PAIRS = 19u;
+SHARED_CONST uint BINDING_DISPLAY = 24u; // 8 bits a channel in place of BINDING_RADIANCE
 
 SHARED_CONST uint BINDING_ACCUMULATE_SAMPLE = 0u;
 SHARED_CONST uint BINDING_ACCUMULATE_SUM = 1u;
+SHARED_CONST uint BINDING_ACCUMULATE_DISPLAY = 2u;
 
 // Specialization constants of the shade kernels.
 SHARED_CONST uint SPEC_SOURCE = 0u;
@@ -82,6 +84,7 @@ SHARED_CONST uint SPEC_WIDE_COMPONENTS = 20u;
 SHARED_CONST uint SPEC_SUN_COUNT = 21u;
 SHARED_CONST uint SPEC_LOOKUP = 22u;
 SHARED_CONST uint SPEC_LAST_LEVEL = 23u; // log2 of the size of the map's faces
+SHARED_CONST uint SPEC_IS_DISPLAY = 30u; // of the accumulation too
 SHARED_CONST uint SPEC_SAMPLES = 100u; // four floats a sample follow
 
 SHARED_CONST uint LOOKUP_SAMPLER = 0u; // the device's

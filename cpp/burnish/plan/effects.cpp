@@ -208,6 +208,12 @@ void add_effect_lines(const Scene& scene, Plan& plan) {
                             plan.has_background     ? "the environment is shown where no object is"
                             : scene.show_background ? "the scene has no environment"
                                                     : "switched off for the scene"});
+    const std::optional<float> exposure = plan.settings.display_exposure;
+    plan.effects.push_back({"display output", exposure.has_value(),
+                            !exposure ? "linear radiance is asked for"
+                            : plan.settings.spp > 1
+                                ? "after accumulation: the mean is stored as 8-bit sRGB"
+                                : "fused into the store: 8-bit sRGB, nothing else needs linear radiance"});
     plan.effects.push_back(
         {"accumulation", plan.settings.spp > 1,
          plan.settings.spp > 1 ? message(plan.settings.spp, " jittered pictures are averaged") : "spp = 1"});

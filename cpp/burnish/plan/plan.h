@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -23,6 +24,7 @@ struct PlanSettings {
     bool has_lookups = true;   ///< false for benchmarks: shading alone, the picture means nothing
     bool has_constants = true; ///< false for benchmarks: every sample table is read from a buffer
     bool has_lobes = true;     ///< false for captured maps: diffuse, emission and the far environment only
+    std::optional<float> display_exposure; ///< stops; of 8-bit sRGB in place of linear radiance
     LookupChoice lookup;
 };
 

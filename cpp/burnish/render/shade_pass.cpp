@@ -142,6 +142,7 @@ ShadePass::ShadePass(Pipelines& pipelines, const Plan& plan, const ShadeTables& 
     for (uint32_t k = 0; k < plan.classes.size(); ++k) {
         const ShadeTraits& traits = plan.classes[k].traits;
         vulkan::SpecializationConstants constants = common_constants(traits, k, is_points);
+        constants.set(shared::SPEC_IS_DISPLAY, inputs.display != nullptr);
         if (reference)
             constants.set(shared::SPEC_IS_QUADRATURE, reference->is_quadrature);
         else
@@ -169,7 +170,8 @@ ShadePass::ShadePass(Pipelines& pipelines, const Plan& plan, const ShadeTables& 
         vulkan::SpecializationConstants constants;
         const bool is_turned = plan.environments[0]->rotation != glm::mat3(1.0f);
         constants.set(shared::SPEC_SHADE_CLASS, background_class)
-            .set(shared::SPEC_HAS_MAP_ROTATION, is_turned);
+            .set(shared::SPEC_HAS_MAP_ROTATION, is_turned)
+            .set(shared::SPEC_IS_DISPLAY, inputs.display != nullptr);
         uint32_t map_set = 0;
         for (uint32_t k = 0; k < plan.map_sets.size(); ++k)
             if (plan.map_sets[k].face_size == plan.environments[0]->face_size()) map_set = k;
@@ -206,6 +208,7 @@ ShadePass::Stage ShadePass::make_stage(Pipelines& pipelines, const std::string& 
     bind(shared::BINDING_TILES, targets ? targets->tiles : unused_.buffer);
     bind(shared::BINDING_TILE_COUNTS, targets ? targets->tile_counts : unused_.buffer);
     bind(shared::BINDING_RADIANCE, *inputs_.radiance);
+    bind(shared::BINDING_DISPLAY, inputs_.display ? *inputs_.display : unused_.buffer);
     bind(shared::BINDING_COUNTERS, *inputs_.counters);
     bind(shared::BINDING_STATISTICS, reference ? reference->statistics : unused_.buffer);
     bind(shared::BINDING_TEXEL_ALIAS, reference && reference->alias ? *reference->alias : unused_.buffer);
@@ -223,6 +226,7 @@ ShadePass::Stage ShadePass::make_stage(Pipelines& pipelines, const std::string& 
 void ShadePass::dispatch(vulkan::Commands& commands, const Stage& stage, shared::ShadeRecord push) const {
     if (inputs_.targets) {
         push.tile_capacity = inputs_.targets->tile_capacity;
+        push.display_scale = inputs_.display_scale;
         commands.dispatch_indirect(*stage.pipeline, stage.set, vulkan::push_bytes(push),
                                    inputs_.targets->tile_counts, stage.shade_class * sizeof(glm::uvec4));
         return;

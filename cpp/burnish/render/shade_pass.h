@@ -21,6 +21,8 @@ struct ShadeInputs {
     uint32_t point_count = 0;
     const vulkan::Buffer* radiance = nullptr; ///< vec4 a pixel or point
     const vulkan::Buffer* counters = nullptr;
+    const vulkan::Buffer* display = nullptr; ///< a byte a channel and pixel: then nothing goes to `radiance`
+    float display_scale = 1.0f;
 };
 
 /// Buffers that only a reference needs.
