@@ -15,7 +15,7 @@ layout(std430, binding = BINDING_ACCUMULATE_SUM) buffer Sum { vec4 sum[]; };
 layout(std430, binding = BINDING_ACCUMULATE_DISPLAY) writeonly buffer Display { uint display_out[]; };
 
 void main() {
-    uint index = gl_GlobalInvocationID.y * GROUPS_PER_ROW * 64u + gl_GlobalInvocationID.x;
+    uint index = (gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x) * 64u + gl_LocalInvocationIndex;
     if (index >= push.count) return;
     vec4 mean = (push.is_first != 0u ? vec4(0.0) : sum[index]) + push.weight * radiance[index];
     if (IS_DISPLAY) display_out[index] = display_pixel(mean, push.display_scale);

@@ -29,6 +29,7 @@ layout(binding = BINDING_VARYING_EMISSIVE, rgba16f) uniform readonly image2D var
 layout(binding = BINDING_VARYING_COAT, rgba16f) uniform readonly image2D varying_coat;
 layout(std430, binding = BINDING_POINTS) readonly buffer Points { SurfacePoint points[]; };
 layout(std430, binding = BINDING_TILES) readonly buffer Tiles { uint tiles[]; };
+layout(std430, binding = BINDING_TILE_COUNTS) readonly buffer TileCounts { uvec4 tile_counts[]; };
 layout(std430, binding = BINDING_RADIANCE) buffer Radiance { vec4 radiance_out[]; };
 layout(std430, binding = BINDING_DISPLAY) buffer Display { uint display_out[]; };
 layout(std430, binding = BINDING_COUNTERS) buffer CounterBlock { Counters counters; };

@@ -10,7 +10,7 @@ SHARED_BEGIN
 SHARED_CONST uint TILE_SIZE = 8u;
 // Pipelines ("shade classes") one frame may use; a tile's classes are one bit each. The last is the background.
 SHARED_CONST uint MAX_SHADE_CLASSES = 32u;
-// Dispatches are folded into rows of this many groups: one dimension may hold only 65535.
+// Dispatches of more groups are folded into rows of equal length: one dimension may hold only 65535.
 SHARED_CONST uint GROUPS_PER_ROW = 32768u;
 // Samples that fit into specialization constants; beyond, the table is read from a buffer.
 SHARED_CONST uint MAX_CONSTANT_SAMPLES = 64u;

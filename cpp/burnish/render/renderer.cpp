@@ -214,11 +214,10 @@ Frame Renderer::draw(const Scene& scene, const Camera& camera, const RenderSetti
         const size_t k = frame.has_display && picture + 1 == spp ? 1 : 0;
         const shared::AccumulateRecord push{uint32_t(pixels), picture == 0 ? 1u : 0u, 1.0f / float(spp),
                                             display_scale};
-        const uint32_t groups = uint32_t((pixels + 63) / 64);
+        const GroupRows rows = fold_groups((pixels + 63) / 64);
         commands.begin_pass("accumulate");
-        commands.dispatch(*accumulate[k], accumulate_sets[k], vulkan::push_bytes(push),
-                          std::min(groups, shared::GROUPS_PER_ROW),
-                          (groups + shared::GROUPS_PER_ROW - 1) / shared::GROUPS_PER_ROW);
+        commands.dispatch(*accumulate[k], accumulate_sets[k], vulkan::push_bytes(push), rows.length,
+                          rows.count);
         commands.end_pass();
     };
     frame.report.compile_ms = pipelines_.take_compile_ms();

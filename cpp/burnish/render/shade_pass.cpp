@@ -128,6 +128,12 @@ void add_lookup_constants(vulkan::SpecializationConstants& constants, const MapS
         .set(shared::SPEC_LAST_LEVEL, is_software ? std::countr_zero(set.face_size) : 0);
 }
 
+GroupRows fold_groups(uint64_t groups) {
+    const uint64_t count =
+        std::max<uint64_t>((groups + shared::GROUPS_PER_ROW - 1) / shared::GROUPS_PER_ROW, 1);
+    return {uint32_t((groups + count - 1) / count), uint32_t(count)};
+}
+
 Placeholders::Placeholders(const vulkan::DevicePointer& device)
     : buffer(device, 256, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_STORAGE_TEXEL_BUFFER_BIT),
       rows(vulkan::texel_view(buffer, VK_FORMAT_R32G32B32A32_UINT)),
@@ -232,11 +238,10 @@ void ShadePass::dispatch(vulkan::Commands& commands, const Stage& stage, shared:
         return;
     }
     push.point_count = inputs_.point_count;
-    const uint32_t groups = (inputs_.point_count + shared::TILE_SIZE * shared::TILE_SIZE - 1) /
-                            (shared::TILE_SIZE * shared::TILE_SIZE);
-    commands.dispatch(*stage.pipeline, stage.set, vulkan::push_bytes(push),
-                      std::min(groups, shared::GROUPS_PER_ROW),
-                      (groups + shared::GROUPS_PER_ROW - 1) / shared::GROUPS_PER_ROW);
+    const GroupRows rows =
+        fold_groups((uint64_t(inputs_.point_count) + shared::TILE_SIZE * shared::TILE_SIZE - 1) /
+                    (shared::TILE_SIZE * shared::TILE_SIZE));
+    commands.dispatch(*stage.pipeline, stage.set, vulkan::push_bytes(push), rows.length, rows.count);
 }
 
 void ShadePass::record_tiles(vulkan::Commands& commands) const {

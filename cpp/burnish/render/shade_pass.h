@@ -42,6 +42,12 @@ struct Placeholders {
     explicit Placeholders(const vulkan::DevicePointer& device);
 };
 
+/// Groups of a dispatch in rows of equal length; a few may be left over.
+struct GroupRows {
+    uint32_t length, count;
+};
+GroupRows fold_groups(uint64_t groups);
+
 class ShadePass {
 public:
     /// `maps`: one for each map set of the plan.

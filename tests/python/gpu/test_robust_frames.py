@@ -207,3 +207,18 @@ def test_scenes_that_take_turns_keep_their_pictures(device):
     first = [covered(radius) for radius in radii]
     assert first == sorted(set(first))
     assert [covered(radius) for radius in (*radii, *reversed(radii))] == [*first, *reversed(first)]
+
+
+@pytest.mark.parametrize(
+    "sampler", [burnish.Regular(1, normalization="published"), burnish.Reference(method="quadrature")]
+)
+def test_every_tile_of_a_picture_of_more_than_one_row_of_groups_is_shaded_once(device, sampler):
+    """2048 x 1040 pixels are 33280 tiles; a plane straight ahead is the same everywhere."""
+    scene = burnish.Scene()
+    upright = np.array([[1, 0, 0, 0], [0, 0, -1, 0], [0, 1, 0, 0], [0, 0, 0, 1]], np.float32)
+    scene.add(burnish.Mesh.plane(size=8.0), burnish.Material(lobes=[burnish.KurtLobe()]), upright)
+    scene.environment = burnish.environments.uniform(1.0, 4)  # two batches of texels
+    view = burnish.Camera.orthographic((0, 0, 3), (0, 0, 0), half_height=1.0, near_plane=0.1, far_plane=10)
+    frame = burnish.render(scene, view, (1040, 2048), sampler, device)
+    assert frame.alpha.min() == 1 and frame.color.min() > 0
+    np.testing.assert_allclose(frame.color, frame.color[500, 500, 0], rtol=1e-3)
