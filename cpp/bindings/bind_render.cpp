@@ -264,7 +264,7 @@ void bind_render(py::module_& m) {
         py::arg("has_constants") = true,
         "dict: the report of a 1920x1080 frame, for benchmarks. Its lookups may be left out, and its sample "
         "tables read from a "
-        "buffer where they would be constants.");
+        "buffer in a loop.");
     m.def("plan", &plan_dict, py::arg("scene"), py::arg("sampler"), py::arg("spp"), py::arg("filter"),
           py::arg("is_software"), py::arg("display_exposure").none(true) = py::none(),
           "dict: passes, effects and shade classes with their reasons; nothing is rendered.");

@@ -100,9 +100,8 @@ std::string describe(const ShadeClass& one, const Scene& scene, const Plan& plan
         if (std::find(some.begin(), some.end(), material) == some.end()) some.push_back(material);
     }
     std::string text = listed(visible_materials(scene), some);
-    const char* const loop = unrolls_samples(plan.settings.sampler, one.traits)
-                                 ? ""
-                                 : "; in a loop, too many samples to be written out";
+    const char* const loop =
+        unrolls_samples(plan.settings, one.traits) ? "" : "; in a loop, too many samples to be written out";
     switch (one.traits.table) {
     case TableForm::none:
         break;

@@ -148,7 +148,7 @@ std::vector<uint32_t> unrolled_counts(const Scene& scene, const Plan& plan, Tabl
     std::vector<uint32_t> counts(plan.classes.size(), 0);
     for (const MaterialInstance& instance : plan.instances) {
         const ShadeTraits& traits = plan.classes[instance.shade_class].traits;
-        if (!unrolls_samples(plan.settings.sampler, traits)) continue;
+        if (!unrolls_samples(plan.settings, traits)) continue;
         for (uint32_t which = 0; which < traits.lobe_count; ++which) {
             const KurtLobe lobe = lobe_of(scene.materials[instance.material], which, traits);
             const SampleTable& table = writer.table(traits.table, lobe.roughness,
