@@ -95,9 +95,10 @@ py::dict report_dict(const render::Report& report) {
 }
 
 py::dict plan_dict(const Scene& scene, const Sampler& sampler, int64_t spp, const std::string& filter,
-                   bool is_software) {
+                   bool is_software, std::optional<float> display_exposure) {
     SunCache suns;
     PlanSettings settings = plan_settings(sampler, spp, filter);
+    settings.display_exposure = display_exposure;
     settings.lookup = choose_lookup(is_software, {}, std::numeric_limits<uint64_t>::max());
     const Plan plan = make_plan(scene, settings, suns);
     py::list passes, classes;
@@ -132,6 +133,14 @@ py::array_t<float> view_channels(const FramePointer& frame, py::ssize_t first, p
     if (channels > 1) strides.push_back(channel_bytes);
     return {picture_shape(*frame, channels), strides, reinterpret_cast<const float*>(pixels.data()) + first,
             py::cast(frame)};
+}
+
+/// Pixels of display output, without a copy: they live as long as the array.
+py::array_t<uint8_t> view_display(const FramePointer& frame) {
+    if (!frame->has_display)
+        throw std::invalid_argument("display: expected a frame of display output, got one of linear output");
+    return py::array_t<uint8_t>(picture_shape(*frame, 4),
+                                reinterpret_cast<const uint8_t*>(frame->display().data()), py::cast(frame));
 }
 
 py::array_t<float> normal_of(render::Frame& frame) {
@@ -184,11 +193,13 @@ py::array_t<float> shade_points(render::Renderer& renderer, const std::shared_pt
 std::shared_ptr<render::Frame> render_scene(render::Renderer& renderer, const Scene& scene,
                                             const Camera* camera, uint32_t height, uint32_t width,
                                             const Sampler& sampler, int64_t spp, const std::string& filter,
-                                            const std::optional<ProgressFunction>& progress, bool is_strict) {
+                                            const std::optional<ProgressFunction>& progress, bool is_strict,
+                                            std::optional<float> display_exposure) {
     render::RenderSettings settings;
     settings.width = width;
     settings.height = height;
     settings.plan = plan_settings(sampler, spp, filter);
+    settings.plan.display_exposure = display_exposure;
     settings.progress = interruptible(progress);
     FramePointer frame;
     {
@@ -211,6 +222,8 @@ void bind_render(py::module_& m) {
         .def_property_readonly(
             "alpha", [](const FramePointer& frame) { return view_channels(frame, 3, 1); },
             "(h, w) float32, coverage by objects; a view of the same.")
+        .def_property_readonly("display", &view_display,
+                               "(h, w, 4) uint8, sRGB and coverage, of display output; a view.")
         .def_property_readonly(
             "depth", [](render::Frame& frame) { return make_array(frame.depth(), picture_shape(frame, 1)); },
             "(h, w) float32, distance along the camera's axis; infinity where nothing is.")
@@ -222,6 +235,7 @@ void bind_render(py::module_& m) {
     m.def("render", &render_scene, py::arg("device"), py::arg("scene"), py::arg("camera").none(true),
           py::arg("height"), py::arg("width"), py::arg("sampler"), py::arg("spp"), py::arg("filter"),
           py::arg("progress").none(true), py::arg("is_strict") = false,
+          py::arg("display_exposure").none(true) = py::none(),
           "Render one frame; burnish.render documents the arguments.");
     m.def("shade", &shade_points, py::arg("device"), py::arg("environment"), py::arg("material"),
           py::arg("sampler"), py::arg("normals"), py::arg("tangents"), py::arg("views"), py::arg("filter"),
@@ -250,9 +264,9 @@ void bind_render(py::module_& m) {
         py::arg("has_constants") = true,
         "dict: the report of a 1920x1080 frame, for benchmarks. Its lookups may be left out, and its sample "
         "tables read from a "
-        "buffer where they would be constants.");
+        "buffer in a loop.");
     m.def("plan", &plan_dict, py::arg("scene"), py::arg("sampler"), py::arg("spp"), py::arg("filter"),
-          py::arg("is_software"),
+          py::arg("is_software"), py::arg("display_exposure").none(true) = py::none(),
           "dict: passes, effects and shade classes with their reasons; nothing is rendered.");
     m.def(
         "capture",

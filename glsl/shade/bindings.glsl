@@ -19,6 +19,7 @@ layout(constant_id = SPEC_HAS_VARYING) const bool HAS_VARYING = false;
 layout(constant_id = SPEC_HAS_COAT) const bool HAS_COAT = false;
 layout(constant_id = SPEC_HAS_MAP_ROTATION) const bool HAS_MAP_ROTATION = false;
 layout(constant_id = SPEC_SHADE_CLASS) const uint SHADE_CLASS = 0u;
+layout(constant_id = SPEC_IS_DISPLAY) const bool IS_DISPLAY = false;
 
 layout(push_constant) uniform Push { ShadeRecord push; };
 layout(binding = BINDING_SURFACE, rg32ui) uniform readonly uimage2D surface_image;
@@ -28,7 +29,9 @@ layout(binding = BINDING_VARYING_EMISSIVE, rgba16f) uniform readonly image2D var
 layout(binding = BINDING_VARYING_COAT, rgba16f) uniform readonly image2D varying_coat;
 layout(std430, binding = BINDING_POINTS) readonly buffer Points { SurfacePoint points[]; };
 layout(std430, binding = BINDING_TILES) readonly buffer Tiles { uint tiles[]; };
+layout(std430, binding = BINDING_TILE_COUNTS) readonly buffer TileCounts { uvec4 tile_counts[]; };
 layout(std430, binding = BINDING_RADIANCE) buffer Radiance { vec4 radiance_out[]; };
+layout(std430, binding = BINDING_DISPLAY) buffer Display { uint display_out[]; };
 layout(std430, binding = BINDING_COUNTERS) buffer CounterBlock { Counters counters; };
 
 #endif

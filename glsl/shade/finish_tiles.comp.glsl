@@ -1,4 +1,5 @@
-// Turns the tile counts of all classes into indirect dispatches, and marks where each list ends.
+// Turns the tile counts of all classes into indirect dispatches: rows as few as they can be, of equal length, so that next to no group
+// lies past the end of its list.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
@@ -12,5 +13,6 @@ void main() {
     uint shade_class = gl_LocalInvocationIndex;
     if (shade_class >= CLASS_COUNT) return;
     uint count = tile_counts[shade_class].w;
-    tile_counts[shade_class].xyz = uvec3(min(count, GROUPS_PER_ROW), (count + GROUPS_PER_ROW - 1u) / GROUPS_PER_ROW, 1u);
+    uint rows = max((count + GROUPS_PER_ROW - 1u) / GROUPS_PER_ROW, 1u);
+    tile_counts[shade_class].xyz = uvec3((count + rows - 1u) / rows, rows, 1u);
 }

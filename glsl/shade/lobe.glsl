@@ -13,7 +13,7 @@
 layout(constant_id = SPEC_TABLE) const uint TABLE = TABLE_BUFFER;
 layout(constant_id = SPEC_FOOTPRINT) const uint FOOTPRINT = FOOTPRINT_EXACT;
 layout(constant_id = SPEC_NORMALIZATION) const uint NORMALIZATION = NORMALIZATION_FURNACE;
-layout(constant_id = SPEC_SAMPLE_COUNT) const uint SAMPLE_COUNT = 1u;
+layout(constant_id = SPEC_SAMPLE_COUNT) const uint SAMPLE_COUNT = 1u; // of tables in a buffer: 0 where each has its own
 
 layout(constant_id = SPEC_WITHOUT_LOOKUPS) const bool IS_WITHOUT_LOOKUPS = false;
 
@@ -131,15 +131,24 @@ LobeSums gather_constant(LobeView v) {
     return sums;
 }
 
-// Tables in the buffer are padded to whole phases with entries of weight zero.
+void gather_phase(LobeView v, uint first, uint count, inout LobeSums sums) {
+    Lookup lookups[PHASE];
+    [[unroll]] for (uint j = 0u; j < PHASE; ++j)
+        if (j < count) lookups[j] = place_lookup(v, imageLoad(sample_table, int(first + j)));
+    [[unroll]] for (uint j = 0u; j < PHASE; ++j)
+        if (j < count) add_lookup(sums, lookups[j]);
+}
+
+// Tables in the buffer are padded with entries of weight zero: to SAMPLE_COUNT, or to whole phases. A loop that a CPU driver keeps
+// stores all it carries in memory at every turn (measured: 1.5 times the cost of a lobe).
 LobeSums gather_buffer(LobeView v, uint table_begin, uint table_count) {
     LobeSums sums = LobeSums(vec3(0.0), vec3(0.0), 0.0, 0.0, 0.0);
-    for (uint k = 0u; k < table_count; k += PHASE) {
-        Lookup lookups[PHASE];
-        [[unroll]] for (uint j = 0u; j < PHASE; ++j)
-            lookups[j] = place_lookup(v, imageLoad(sample_table, int(table_begin + k + j)));
-        [[unroll]] for (uint j = 0u; j < PHASE; ++j) add_lookup(sums, lookups[j]);
+    if (SAMPLE_COUNT > 0u) {
+        [[unroll]] for (uint k = 0u; k < SAMPLE_COUNT; k += PHASE)
+            gather_phase(v, table_begin + k, SAMPLE_COUNT - k, sums);
+        return sums;
     }
+    [[dont_unroll]] for (uint k = 0u; k < table_count; k += PHASE) gather_phase(v, table_begin + k, PHASE, sums);
     return sums;
 }
 

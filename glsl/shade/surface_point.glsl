@@ -2,6 +2,7 @@
 #ifndef BURNISH_SHADE_SURFACE_POINT
 #define BURNISH_SHADE_SURFACE_POINT
 
+#include "lib/display.glsl"
 #include "lib/frame.glsl"
 #include "lib/kurt_lobe.glsl"
 #include "shade/guard.glsl"
@@ -26,12 +27,14 @@ vec3 pixel_ray(ViewRecord view, vec2 pixel) {
     return normalize(view.ray_corner.xyz + (pixel.x + 0.5) * view.ray_dx.xyz + (pixel.y + 0.5) * view.ray_dy.xyz);
 }
 
+uint group_index() { return gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x; }
+
 // The pixel of this invocation in the list of its class; false outside the picture or past the list's end.
 bool locate_pixel(ViewRecord view, out ivec2 pixel) {
-    uint tile_index = gl_WorkGroupID.y * GROUPS_PER_ROW + gl_WorkGroupID.x;
+    uint tile_index = group_index();
     uint tile = tiles[SHADE_CLASS * push.tile_capacity + min(tile_index, push.tile_capacity - 1u)];
     pixel = ivec2(uvec2(tile & 0xffffu, tile >> 16) * TILE_SIZE + gl_LocalInvocationID.xy);
-    return pixel.x < int(view.width_px) && pixel.y < int(view.height_px);
+    return tile_index < tile_counts[SHADE_CLASS].w && pixel.x < int(view.width_px) && pixel.y < int(view.height_px);
 }
 
 // A normal that interpolation or a normal map turned away from the eye is bent back to just face it.
@@ -55,7 +58,7 @@ mat3 facing_frame(PackedFrame packed_frame, vec3 omega_o) {
 PointToShade load_point() {
     PointToShade point;
     if (SOURCE == SOURCE_POINTS) {
-        uint index = (gl_WorkGroupID.y * GROUPS_PER_ROW + gl_WorkGroupID.x) * (TILE_SIZE * TILE_SIZE) + gl_LocalInvocationIndex;
+        uint index = group_index() * (TILE_SIZE * TILE_SIZE) + gl_LocalInvocationIndex;
         point.is_mine = index < push.point_count;
         point.index = min(index, push.point_count - 1u);
         SurfacePoint given = points[point.index];
@@ -134,7 +137,9 @@ mat3 lobe_frame(mat3 frame, LobeRecord record) {
 void store_radiance(PointToShade point, vec3 radiance, float alpha, uint pass_index) {
     if (!point.is_mine) return;
     if (SOURCE == SOURCE_POINTS && !point.is_seen) radiance = vec3(0.0);
-    radiance_out[point.index] = vec4(stop_non_finite(radiance, point.index, pass_index), alpha);
+    vec4 color = vec4(stop_non_finite(radiance, point.index, pass_index), alpha);
+    if (IS_DISPLAY) display_out[point.index] = display_pixel(color, push.display_scale);
+    else radiance_out[point.index] = color;
 }
 
 #endif

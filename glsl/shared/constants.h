@@ -10,10 +10,13 @@ SHARED_BEGIN
 SHARED_CONST uint TILE_SIZE = 8u;
 // Pipelines ("shade classes") one frame may use; a tile's classes are one bit each. The last is the background.
 SHARED_CONST uint MAX_SHADE_CLASSES = 32u;
-// Dispatches are folded into rows of this many groups: one dimension may hold only 65535.
+// Dispatches of more groups are folded into rows of equal length: one dimension may hold only 65535.
 SHARED_CONST uint GROUPS_PER_ROW = 32768u;
 // Samples that fit into specialization constants; beyond, the table is read from a buffer.
 SHARED_CONST uint MAX_CONSTANT_SAMPLES = 64u;
+// Lookups of all lobes of a point that are written out one by one; beyond, they are a loop: 56 take a CPU driver about 2 s to
+// compile, 240 took 18 s.
+SHARED_CONST uint MAX_UNROLLED_SAMPLES = 80u;
 
 // Nodes of albedo tables: cosines of the view at (i/(ALBEDO_COS_NODES-1))^2; roughness evenly in its log up to 1.
 SHARED_CONST uint ALBEDO_COS_NODES = 128u;
@@ -54,9 +57,11 @@ SHARED_CONST uint BINDING_TEXEL_ALIAS = 16u;
 SHARED_CONST uint BINDING_STATISTICS = 17u;
 SHARED_CONST uint BINDING_TILE_COUNTS = 18u; // xyz: indirect dispatch, w: tiles
 SHARED_CONST uint BINDING_MAP_PAIRS = 19u;
+SHARED_CONST uint BINDING_DISPLAY = 24u; // 8 bits a channel in place of BINDING_RADIANCE
 
 SHARED_CONST uint BINDING_ACCUMULATE_SAMPLE = 0u;
 SHARED_CONST uint BINDING_ACCUMULATE_SUM = 1u;
+SHARED_CONST uint BINDING_ACCUMULATE_DISPLAY = 2u;
 
 // Specialization constants of the shade kernels.
 SHARED_CONST uint SPEC_SOURCE = 0u;
@@ -83,6 +88,7 @@ SHARED_CONST uint SPEC_WIDE_COMPONENTS = 20u;
 SHARED_CONST uint SPEC_SUN_COUNT = 21u;
 SHARED_CONST uint SPEC_LOOKUP = 22u;
 SHARED_CONST uint SPEC_LAST_LEVEL = 23u; // log2 of the size of the map's faces
+SHARED_CONST uint SPEC_IS_DISPLAY = 30u; // of the accumulation too
 SHARED_CONST uint SPEC_SAMPLES = 100u; // four floats a sample follow
 
 SHARED_CONST uint LOOKUP_SAMPLER = 0u; // the device's

@@ -121,8 +121,8 @@ struct ShadeRecord {
     uint batch_size;   // samples in a batch
     uint texel_begin;  // of a quadrature reference: texels of the map done in this dispatch
     uint texel_end;
+    float display_scale; // of display output: 2^exposure
     uint pad0;
-    uint pad1;
 };
 SHARED_SIZE(ShadeRecord, 32)
 
@@ -131,7 +131,7 @@ struct AccumulateRecord {
     uint count;    // pixels
     uint is_first; // 1: the sum starts anew
     float weight;
-    uint pad0;
+    float display_scale; // of display output: 2^exposure
 };
 SHARED_SIZE(AccumulateRecord, 16)
 

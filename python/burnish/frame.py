@@ -55,23 +55,49 @@ class Frame:
         Where it was asked for: estimated error of every pixel, absolute linear radiance, root mean square
         over the three channels; 0 where no object is. Its own root mean square over the pixels with objects,
         over that of `color` there, predicts the relative RMSE: `estimated_error`.
+    display : (h, w, 4) uint8 or None
+        Of a frame rendered with ``output="display"``: 8-bit sRGB, and coverage as 0..255. Such a frame has
+        neither `color` nor `alpha`: asking for them is a ValueError.
     """
 
     def __init__(
         self,
-        color: FloatArray,
-        alpha: FloatArray,
+        color: FloatArray | None,
+        alpha: FloatArray | None,
         depth: FloatArray | Callable[[], FloatArray],
         normal: FloatArray | Callable[[], FloatArray],
         report: Report,
         error_estimate: FloatArray | None = None,
+        display: NDArray[np.uint8] | None = None,
     ) -> None:
-        self.color = color
-        self.alpha = alpha
+        self._color = color
+        self._alpha = alpha
         self._depth = depth
         self._normal = normal
         self.report = report
         self.error_estimate = error_estimate
+        self._display = display
+
+    @property
+    def color(self) -> FloatArray:
+        """Linear radiance, (h, w, 3) float32. Raises ValueError for a frame of display output."""
+        if self._color is None:
+            raise ValueError('color: expected a frame rendered with output="linear", got one of "display"')
+        return self._color
+
+    @property
+    def alpha(self) -> FloatArray:
+        """Share covered by objects, (h, w) float32. Raises ValueError for a frame of display output."""
+        if self._alpha is None:
+            raise ValueError('alpha: expected a frame rendered with output="linear", got one of "display"')
+        return self._alpha
+
+    @property
+    def display(self) -> NDArray[np.uint8]:
+        """8-bit sRGB and coverage, (h, w, 4) uint8. Raises ValueError for a frame of linear output."""
+        if self._display is None:
+            raise ValueError('display: expected a frame rendered with output="display", got one of "linear"')
+        return self._display
 
     @property
     def depth(self) -> FloatArray:
@@ -88,7 +114,7 @@ class Frame:
         return self._normal
 
     def __repr__(self) -> str:
-        height, width = self.color.shape[:2]
+        height, width = (self.color if self._display is None else self._display).shape[:2]
         return f"Frame({width}x{height}, {self.report.total_ms:.1f} ms)"
 
     def save(self, path: str | os.PathLike[str], exposure: float = 0.0) -> None:
@@ -99,14 +125,15 @@ class Frame:
         path : path
             ``.exr``: float32 linear radiance and coverage (R, G, B, A), depth (Z), normals (N.X, N.Y, N.Z),
             the error estimate where there is one (error.Y), and the report as JSON in the header attribute
-            ``burnish``. ``.png``: 8-bit sRGB, clipped, without alpha.
+            ``burnish``. ``.png``: 8-bit sRGB, clipped, without alpha; all that a frame of display output has.
         exposure : float
             Stops, for ``.png`` only: radiance is multiplied by 2**exposure. OpenEXR files keep the radiance.
+            0 for display output, which has its exposure already.
 
         Raises
         ------
         ValueError
-            If the name ends otherwise.
+            If the name ends otherwise, or the frame of display output cannot give what is asked for.
         FileError
             If the file cannot be written.
         """
@@ -120,7 +147,10 @@ class Frame:
                 channels["error.Y"] = self.error_estimate
             images.write_exr(path, channels, metadata={"burnish": self.report.to_json(indent=None)})
         elif suffix == ".png":
-            images.write_png(path, self.color, exposure=exposure)
+            if self._display is not None and exposure != 0:
+                raise ValueError(f"exposure: expected 0 for a frame of display output, got {exposure!r}")
+            pixels = self.color if self._display is None else self._display[..., :3]
+            images.write_png(path, pixels, exposure=exposure)
         else:
             raise ValueError(f"path: expected a name ending in .exr or .png, got {os.fspath(path)!r}")
 

@@ -14,11 +14,13 @@ from burnish.report import Report
 
 Sampler: TypeAlias = _core.Regular | _core.Importance | _core.Matched | _core.Prefiltered | _core.Reference
 Filter: TypeAlias = Literal["box", "gauss4", "gauss6"]
+Output: TypeAlias = Literal["linear", "display"]
 FloatArray: TypeAlias = NDArray[np.float32]
 Progress: TypeAlias = Callable[[float, str], None]
 
 FILTERS = ("box", "gauss4", "gauss6")
 LARGEST_EDGE_PX = 16384
+LARGEST_EXPOSURE = 64.0
 
 
 def require_filter(filter: str) -> None:
@@ -126,6 +128,22 @@ def _require_spp(spp: int) -> None:
         raise ValueError(f"spp: expected an integer in 1..65536, got {spp!r}")
 
 
+def _stops(output: Output, display_exposure: float) -> float | None:
+    """Exposure of 8-bit output; None where linear radiance is wanted."""
+    if output not in ("linear", "display"):
+        raise ValueError(f"output: expected one of linear, display, got {output!r}")
+    try:
+        stops = float(display_exposure)
+    except (TypeError, ValueError):
+        stops = float("nan")
+    if not -LARGEST_EXPOSURE <= stops <= LARGEST_EXPOSURE:
+        limit = f"{-LARGEST_EXPOSURE:g}..{LARGEST_EXPOSURE:g}"
+        raise ValueError(f"display_exposure: expected a number in {limit}, got {display_exposure!r}")
+    if output == "linear" and stops != 0.0:
+        raise ValueError(f"display_exposure: expected 0 beside linear output, got {display_exposure!r}")
+    return stops if output == "display" else None
+
+
 def render(
     scene: _core.Scene,
     camera: _core.Camera | None = None,
@@ -139,6 +157,8 @@ def render(
     verify: bool = False,
     error_estimate: bool = False,
     strict: bool = False,
+    output: Output = "linear",
+    display_exposure: float = 0.0,
 ) -> Frame:
     """Render one frame.
 
@@ -173,11 +193,17 @@ def render(
         second frame of fewer samples.
     strict : bool
         Raise where a value was not finite, instead of a black pixel and a line in the report.
+    output : "linear" or "display"
+        "display": the device stores 8-bit sRGB with coverage, ``frame.display``, as
+        `images.display_image` makes it of linear radiance, within one code; no linear picture is made.
+    display_exposure : float
+        Stops, -64..64, with "display" only: radiance is multiplied by 2**display_exposure.
 
     Returns
     -------
     frame : Frame
-        Linear radiance, coverage, depth and normals, and the report that prices them.
+        Linear radiance and coverage, or pixels for a display; depth and normals, and the report that prices
+        them.
 
     Warns
     -----
@@ -214,12 +240,23 @@ def render(
         if advice.warning is not None:
             warnings.warn(advice.warning, RuntimeWarning, stacklevel=2)
     sampler = _core.Regular() if sampler is None else sampler
+    stops = _stops(output, display_exposure)
+    if error_estimate and stops is not None:
+        raise ValueError(
+            "error_estimate: expected False beside display output, which has no radiance, got True"
+        )
     if error_estimate:
         from burnish.advice.error_estimate import companion
 
         other = companion(sampler)  # refuses a sampler that has none before any work is done
-    data = _core.render(device, scene, camera, height, width, sampler, int(spp), filter, progress, strict)
+    data = _core.render(
+        device, scene, camera, height, width, sampler, int(spp), filter, progress, strict, stops
+    )
     report = dict(data.report) | ({"prediction": prediction} if prediction else {})
+    if stops is not None:
+        return Frame(
+            None, None, lambda: data.depth, lambda: data.normal, Report(report), display=data.display
+        )
     frame = Frame(data.color, data.alpha, lambda: data.depth, lambda: data.normal, Report(report))
     if error_estimate:
         from burnish.advice.error_estimate import estimate_errors
@@ -235,6 +272,7 @@ def plan(
     spp: int = 1,
     filter: Filter = "gauss6",
     is_software: bool = True,
+    output: Output = "linear",
 ) -> dict[str, Any]:
     """Say what rendering a scene would do, without a device.
 
@@ -250,6 +288,8 @@ def plan(
         Reduction filter of the pyramid.
     is_software : bool
         Whether the device would be a CPU.
+    output : "linear" or "display"
+        As `render` takes it.
 
     Returns
     -------
@@ -258,4 +298,5 @@ def plan(
     """
     require_filter(filter)
     _require_spp(spp)
-    return _core.plan(scene, _core.Regular() if sampler is None else sampler, int(spp), filter, is_software)
+    sampler = _core.Regular() if sampler is None else sampler
+    return _core.plan(scene, sampler, int(spp), filter, is_software, _stops(output, 0.0))

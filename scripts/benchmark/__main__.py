@@ -16,7 +16,7 @@ from .lookups import bench_lookups
 from .machine import bench_machine
 from .samplers import bench_maps, bench_samplers
 from .scaling_plot import plot_curves
-from .shading import bench_pyramids, bench_shading
+from .shading import bench_display, bench_pyramids, bench_shading
 
 PARTS: dict[str, tuple[Callable[[Bench], None], str]] = {
     "machine": (bench_machine, "memory copies"),
@@ -25,6 +25,7 @@ PARTS: dict[str, tuple[Callable[[Bench], None], str]] = {
     "loop": (bench_loop, "the lookup of our own against a loop by hand in C++, one core and all"),
     "samplers": (bench_samplers, "Matched against Regular at equal counts"),
     "maps": (bench_maps, "levels that Matched and Prefiltered read"),
+    "display": (bench_display, "8-bit sRGB made on the device or in numpy"),
     "pyramids": (bench_pyramids, "pyramids by three filters"),
     "effects": (bench_effects, "every effect absent, present but zero, present"),
 }

@@ -1,11 +1,13 @@
-"""A full 1080p frame and its parts; pyramids."""
+"""A full 1080p frame and its parts; 8 bits for a display; pyramids."""
 
 import statistics
+import time
 
 import burnish
 from burnish import _core, environments
+from burnish.images import display_image
 
-from .bench import PIXELS, PUBLISHED, ROUGHNESS, Bench, Measure, camera, frame_measure, pass_times
+from .bench import PIXELS, PUBLISHED, ROUGHNESS, SIZE, Bench, Measure, camera, frame_measure, pass_times
 
 PYRAMID_SIZES = (256, 512, 1024)
 FILTERS = ("box", "gauss4", "gauss6")
@@ -51,6 +53,34 @@ def bench_shading(bench: Bench) -> None:
         print(f"  {name:<14}{value:10.4g} {remark}")
     bench.state("shade pass / lookups alone", frame["shade"] / alone, 1.35, at_least=False)
     bench.state("fixed part / whole frame", fixed / frame["wall"], 0.2, at_least=False)
+
+
+def bench_display(bench: Bench) -> None:
+    scene = burnish.Scene.sphere(burnish.Material(lobes=[burnish.KurtLobe(roughness=ROUGHNESS)]))
+    scene.environment = environments.spots(1, 256)
+
+    def picture(spp: int, output: burnish.rendering.Output, is_encoded: bool) -> Measure:
+        def run() -> dict[str, float]:
+            began = time.perf_counter()
+            frame = burnish.render(
+                scene, camera(1.2), SIZE, burnish.Matched(5), bench.device, spp=spp, output=output
+            )
+            if is_encoded:
+                display_image(frame.color)
+            return {"wall": 1e3 * (time.perf_counter() - began)}
+
+        return run
+
+    measures = {}
+    for spp in (1, 4):
+        measures |= {
+            f"{spp} spp, linear": picture(spp, "linear", False),
+            f"{spp} spp, linear, then display_image": picture(spp, "linear", True),
+            f"{spp} spp, display output": picture(spp, "display", False),
+        }
+    print("\ndisplay: a sphere and the background, matched 5, 1920 x 1080")
+    for name, row in bench.alternate("display", measures).items():
+        print(f"  {name:<40}" + "".join(f"{key:>8}{value:8.1f} ms" for key, value in row.items()))
 
 
 def bench_pyramids(bench: Bench) -> None:

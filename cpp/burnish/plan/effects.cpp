@@ -110,6 +110,8 @@ std::string describe(const ShadeClass& one, const Scene& scene, const Plan& plan
         if (std::find(some.begin(), some.end(), material) == some.end()) some.push_back(material);
     }
     std::string text = listed(visible_materials(scene), some);
+    const char* const loop =
+        unrolls_samples(plan.settings, one.traits) ? "" : "; in a loop, too many samples to be written out";
     switch (one.traits.table) {
     case TableForm::none:
         break;
@@ -119,15 +121,15 @@ std::string describe(const ShadeClass& one, const Scene& scene, const Plan& plan
         break;
     case TableForm::buffer:
         if (one.traits.lobe_count > 1)
-            text += "; several lobes, samples from a buffer";
+            text += message("; several lobes, samples from a buffer", loop);
         else if (constant_count > MAX_CONSTANT_CLASSES)
             text += message("; ", constant_count, " roughnesses in the picture, more than ",
-                            MAX_CONSTANT_CLASSES, " worth a pipeline each, samples from a buffer");
+                            MAX_CONSTANT_CLASSES, " worth a pipeline each, samples from a buffer", loop);
         else
-            text += "; too many samples for constants, samples from a buffer";
+            text += message("; too many samples for constants, samples from a buffer", loop);
         break;
     case TableForm::scaled:
-        text += "; roughness varies over the surface, samples scale with it";
+        text += message("; roughness varies over the surface, samples scale with it", loop);
         break;
     case TableForm::matched:
         text += "; mixtures placed at every point: " + why_at_every_point(one.traits, some);
@@ -215,6 +217,12 @@ void add_effect_lines(const Scene& scene, Plan& plan) {
                             plan.has_background     ? "the environment is shown where no object is"
                             : scene.show_background ? "the scene has no environment"
                                                     : "switched off for the scene"});
+    const std::optional<float> exposure = plan.settings.display_exposure;
+    plan.effects.push_back({"display output", exposure.has_value(),
+                            !exposure ? "linear radiance is asked for"
+                            : plan.settings.spp > 1
+                                ? "after accumulation: the mean is stored as 8-bit sRGB"
+                                : "fused into the store: 8-bit sRGB, nothing else needs linear radiance"});
     plan.effects.push_back(
         {"accumulation", plan.settings.spp > 1,
          plan.settings.spp > 1 ? message(plan.settings.spp, " jittered pictures are averaged") : "spp = 1"});

@@ -228,6 +228,14 @@ void add_classes(const Scene& scene, Plan& plan) {
 
 } // namespace
 
+bool unrolls_samples(const PlanSettings& settings, const ShadeTraits& traits) {
+    if (!settings.has_constants) return false;
+    if (traits.table != TableForm::buffer && traits.table != TableForm::scaled) return false;
+    const auto* regular = std::get_if<Regular>(&settings.sampler);
+    const uint32_t samples = regular ? regular->samples : std::get<Importance>(settings.sampler).samples;
+    return uint64_t(samples) * traits.lobe_count <= shared::MAX_UNROLLED_SAMPLES;
+}
+
 SplitEnvironment SunCache::split(const std::shared_ptr<const Environment>& environment) {
     std::erase_if(entries_, [](const auto& entry) { return entry.second.environment.expired(); });
     auto found = entries_.find(environment.get());

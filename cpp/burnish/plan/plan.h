@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,8 +22,9 @@ struct PlanSettings {
     uint32_t spp = 1;
     PyramidFilter filter = PyramidFilter::gauss6;
     bool has_lookups = true;   ///< false for benchmarks: shading alone, the picture means nothing
-    bool has_constants = true; ///< false for benchmarks: every sample table is read from a buffer
+    bool has_constants = true; ///< false for benchmarks: sample tables are read from a buffer, in a loop
     bool has_lobes = true;     ///< false for captured maps: diffuse, emission and the far environment only
+    std::optional<float> display_exposure; ///< stops; of 8-bit sRGB in place of linear radiance
     LookupChoice lookup;
 };
 
@@ -128,6 +130,9 @@ struct Plan {
 
 /// More constant tables than this are read from a buffer instead: each is a pipeline to compile.
 constexpr size_t MAX_CONSTANT_CLASSES = 6;
+
+/// Whether tables that are read from a buffer are read without a loop: where all lookups of a point are few.
+bool unrolls_samples(const PlanSettings& settings, const ShadeTraits& traits);
 
 /// Chooses passes and shader variants. Throws std::invalid_argument for settings out of range.
 Plan make_plan(const Scene& scene, const PlanSettings& settings, SunCache& suns);

@@ -1,6 +1,7 @@
 #include "burnish/render/frame.h"
 
 #include <algorithm>
+#include <stdexcept>
 
 #include "burnish/error.h"
 #include "burnish/render/octahedral.h"
@@ -11,9 +12,16 @@
 namespace burnish::render {
 
 std::span<const glm::vec4> Frame::radiance() const {
+    if (has_display)
+        throw std::invalid_argument("color: expected a frame of linear output, got one of display output");
     if (!radiance_copy.empty()) return radiance_copy;
     const vulkan::Buffer& buffer = report.spp > 1 ? targets->sum : targets->radiance;
     return buffer.mapped<const glm::vec4>().first(size_t(width) * height);
+}
+
+std::span<const uint32_t> Frame::display() const {
+    if (!display_copy.empty()) return display_copy;
+    return targets->display.mapped<const uint32_t>().first(size_t(width) * height);
 }
 
 void Frame::read_surface() {

@@ -57,9 +57,13 @@ struct Frame {
     /// into it while this one lives.
     std::shared_ptr<FrameTargets> targets;
     std::vector<glm::vec4> radiance_copy; ///< where it does not
+    std::vector<uint32_t> display_copy;   ///< likewise
+    bool has_display = false;             ///< display output: there is no radiance
 
     /// rgb: linear radiance; a: coverage by objects.
     std::span<const glm::vec4> radiance() const;
+    /// 8-bit sRGB and coverage, red in the lowest byte.
+    std::span<const uint32_t> display() const;
     /// Copies depth and normals from the device, unless that was done; before the next picture is drawn into
     /// the same targets.
     void read_surface();

@@ -68,18 +68,34 @@ TextureVertex pack_texture_vertex(const Mesh& mesh, size_t k) {
 }
 
 uint64_t mix(uint64_t hash, const void* data, size_t bytes) {
+    constexpr uint64_t factor = 0x9fb21c651e98df25ull;
     const auto* next = static_cast<const unsigned char*>(data);
     hash = (hash ^ bytes) * 0x9e3779b97f4a7c15ull;
+    // Every frame looks at all of the scene: four chains side by side, since one waits for its
+    // multiplications.
+    std::array<uint64_t, 4> lanes = {hash, hash + 1, hash + 2, hash + 3};
+    for (; bytes >= sizeof(lanes); bytes -= sizeof(lanes), next += sizeof(lanes)) {
+        std::array<uint64_t, 4> words;
+        std::memcpy(words.data(), next, sizeof(words));
+        for (size_t k = 0; k < lanes.size(); ++k) {
+            lanes[k] = (lanes[k] ^ words[k]) * factor;
+            lanes[k] ^= lanes[k] >> 32;
+        }
+    }
+    for (const uint64_t lane : lanes) {
+        hash = (hash ^ lane) * factor;
+        hash ^= hash >> 32;
+    }
     for (; bytes >= 8; bytes -= 8, next += 8) {
         uint64_t word;
         std::memcpy(&word, next, 8);
-        hash = (hash ^ word) * 0x9fb21c651e98df25ull;
+        hash = (hash ^ word) * factor;
         hash ^= hash >> 32;
     }
     uint64_t last = 0;
     if (bytes > 0)
         std::memcpy(&last, next, bytes); // of no bytes the address may be null, which memcpy forbids
-    return (hash ^ last) * 0x9fb21c651e98df25ull;
+    return (hash ^ last) * factor;
 }
 
 template <typename T>
@@ -147,6 +163,13 @@ void GpuScene::upload_meshes(const vulkan::DevicePointer& device, const Scene& s
                                             VK_BUFFER_USAGE_VERTEX_BUFFER_BIT);
     indices_ =
         vulkan::make_buffer(device, std::as_bytes(std::span(indices)), VK_BUFFER_USAGE_INDEX_BUFFER_BIT);
+}
+
+uint64_t GpuScene::memory_bytes() const {
+    uint64_t bytes = vertices_.size_bytes() + texture_vertices_.size_bytes() + indices_.size_bytes();
+    for (const TextureImage& picture : pictures_)
+        bytes += 4 * picture.rgba.size(); // here, and with 4/3 for its levels twice on the device
+    return bytes;
 }
 
 vulkan::Image GpuScene::upload_image(const TextureImage& picture, bool is_srgb) const {

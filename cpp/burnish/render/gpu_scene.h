@@ -41,6 +41,8 @@ public:
     const vulkan::Buffer& indices() const { return indices_; }
     const MeshRange& mesh(uint32_t index) const { return meshes_[index]; }
     uint64_t triangle_count() const { return triangle_count_; }
+    /// At most so much memory, of host and device: textures may be uploaded in two encodings.
+    uint64_t memory_bytes() const;
 
     /// The picture decoded from sRGB or not, with mip levels; a white texel for an unused texture.
     BoundTexture texture(const TextureUse& use, bool is_srgb);

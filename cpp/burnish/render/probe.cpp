@@ -7,6 +7,7 @@
 #include "burnish/vulkan/transfer.h"
 #include "shared/probe.h"
 #include "spirv/probe_cube_map_comp.h"
+#include "spirv/probe_display_comp.h"
 #include "spirv/probe_footprint_comp.h"
 #include "spirv/probe_frame_comp.h"
 #include "spirv/probe_kurt_lobe_comp.h"
@@ -28,6 +29,7 @@ std::span<const uint32_t> find_spirv(const std::string& library) {
         {"frame", probe_frame_comp_spv},
         {"kurt_lobe", probe_kurt_lobe_comp_spv},
         {"metallic_roughness", probe_metallic_roughness_comp_spv},
+        {"display", probe_display_comp_spv},
         {"random", probe_random_comp_spv},
         {"spherical_harmonics", probe_spherical_harmonics_comp_spv},
     };

@@ -38,6 +38,10 @@ glm::vec3 unit_or_zero(const glm::vec3& vector) {
     return length > 0.0 ? glm::vec3(wide / length) : glm::vec3(0.0f);
 }
 
+/// Scenes that take turns stay on the device beside the one that is drawn.
+constexpr size_t MOST_OTHER_SCENES = 3;
+constexpr uint64_t MOST_OTHER_SCENE_BYTES = 256 << 20;
+
 void add_stopped(Report& report, const vulkan::Buffer& counters) {
     static constexpr std::array<const char*, shared::GUARD_COUNT> passes = {"shade", "background",
                                                                             "reference"};
@@ -68,7 +72,7 @@ std::unique_lock<std::mutex> Renderer::enter() {
 }
 
 void Renderer::forget() {
-    scene_.reset();
+    scenes_.clear();
     maps_.clear();
     alias_environments_.clear();
     alias_ = {};
@@ -85,15 +89,29 @@ Plan Renderer::make_plan(const Scene& scene, const PlanSettings& settings) {
     return burnish::make_plan(scene, with_lookup, suns_);
 }
 
+void Renderer::forget_old_scenes() {
+    uint64_t bytes = 0;
+    size_t kept = 0;
+    for (; kept < std::min(scenes_.size(), MOST_OTHER_SCENES); ++kept) {
+        bytes += scenes_[scenes_.size() - 1 - kept].scene->memory_bytes();
+        if (bytes > MOST_OTHER_SCENE_BYTES) break;
+    }
+    scenes_.erase(scenes_.begin(), scenes_.end() - std::ptrdiff_t(kept));
+}
+
 GpuScene& Renderer::prepare_scene(const Scene& scene) {
     const uint64_t wanted = fingerprint(scene);
-    if (!scene_ || wanted != scene_fingerprint_) {
+    const auto found = std::find_if(scenes_.begin(), scenes_.end(),
+                                    [&](const CachedScene& one) { return one.fingerprint == wanted; });
+    if (found != scenes_.end()) {
+        std::rotate(found, found + 1, scenes_.end());
+    } else {
         validate(scene);
-        scene_.reset(); // its memory may be needed for the next
-        scene_ = needing_memory_for(
-            message("a scene of ", scene.meshes.size(), " meshes and ", scene.images.size(), " textures"),
-            [&] { return std::make_unique<GpuScene>(device_, scene); });
-        scene_fingerprint_ = wanted;
+        forget_old_scenes();
+        scenes_.push_back(
+            {wanted, needing_memory_for(message("a scene of ", scene.meshes.size(), " meshes and ",
+                                                scene.images.size(), " textures"),
+                                        [&] { return std::make_unique<GpuScene>(device_, scene); })});
     }
     // Objects and materials may change without the meshes: their indices are checked each time.
     for (const Object& object : scene.objects)
@@ -102,7 +120,7 @@ GpuScene& Renderer::prepare_scene(const Scene& scene) {
                                                 scene.meshes.size(), " and a material below ",
                                                 scene.materials.size(), ", got ", object.mesh, " and ",
                                                 object.material));
-    return *scene_;
+    return *scenes_.back().scene;
 }
 
 Report Renderer::start_report(const Scene& scene, const Plan& plan, const ShadeTables& tables) const {
@@ -157,8 +175,9 @@ Frame Renderer::draw(const Scene& scene, const Camera& camera, const RenderSetti
     std::vector<vulkan::PassTime> times;
     const std::vector<std::shared_ptr<EnvironmentMaps>> maps = prepare_maps(plan, times);
     const ShadeTables tables = make_shade_tables(device_, scene, plan, tables_);
+    frame.has_display = plan.settings.display_exposure.has_value();
     frame.targets = targets_->take(settings.width, settings.height, plan.has_varying, plan.settings.spp > 1,
-                                   uint32_t(plan.classes.size()) + 1);
+                                   frame.has_display, uint32_t(plan.classes.size()) + 1);
     FrameTargets& targets = *frame.targets;
     const bool is_shared = device_->info().is_software && targets.radiance.is_mapped();
     frame.report = start_report(scene, plan, tables);
@@ -170,26 +189,36 @@ Frame Renderer::draw(const Scene& scene, const Camera& camera, const RenderSetti
     const bool is_reference = std::holds_alternative<Reference>(plan.settings.sampler);
     std::optional<ReferenceBuffers> reference;
     if (is_reference) reference = make_reference_buffers(scene, plan, pixels);
-    const ShadeInputs inputs{&targets, nullptr, 0, &targets.radiance, &targets.counters};
+    const uint32_t spp = plan.settings.spp;
+    const float display_scale = std::exp2(plan.settings.display_exposure.value_or(0.0f));
+    const bool is_fused = frame.has_display && spp == 1;
+    const ShadeInputs inputs{&targets,          nullptr,           0,
+                             &targets.radiance, &targets.counters, is_fused ? &targets.display : nullptr,
+                             display_scale};
     const SurfacePass surface(pipelines_, gpu_scene, scene, plan, targets);
     const ShadePass shade(pipelines_, plan, tables, maps, inputs, placeholders_,
                           reference ? &*reference : nullptr);
-    const vulkan::ComputePipeline* accumulate = nullptr;
-    vulkan::DescriptorSet accumulate_set;
-    const uint32_t spp = plan.settings.spp;
-    if (spp > 1) {
-        accumulate = &pipelines_.compute("resolve/accumulate.comp");
-        accumulate_set = vulkan::DescriptorSet(*accumulate);
-        accumulate_set.bind(shared::BINDING_ACCUMULATE_SAMPLE, targets.radiance)
-            .bind(shared::BINDING_ACCUMULATE_SUM, targets.sum);
+    // Into the sum, and the last picture of display output.
+    std::array<const vulkan::ComputePipeline*, 2> accumulate = {};
+    std::array<vulkan::DescriptorSet, 2> accumulate_sets;
+    for (size_t k = 0; spp > 1 && k < (frame.has_display ? 2 : 1); ++k) {
+        vulkan::SpecializationConstants constants;
+        constants.set(shared::SPEC_IS_DISPLAY, k == 1);
+        accumulate[k] = &pipelines_.compute("resolve/accumulate.comp", constants);
+        accumulate_sets[k] = vulkan::DescriptorSet(*accumulate[k]);
+        accumulate_sets[k]
+            .bind(shared::BINDING_ACCUMULATE_SAMPLE, targets.radiance)
+            .bind(shared::BINDING_ACCUMULATE_SUM, targets.sum)
+            .bind(shared::BINDING_ACCUMULATE_DISPLAY, targets.display);
     }
     const auto record_accumulate = [&](vulkan::Commands& commands, uint32_t picture) {
-        const shared::AccumulateRecord push{uint32_t(pixels), picture == 0 ? 1u : 0u, 1.0f / float(spp), 0};
-        const uint32_t groups = uint32_t((pixels + 63) / 64);
+        const size_t k = frame.has_display && picture + 1 == spp ? 1 : 0;
+        const shared::AccumulateRecord push{uint32_t(pixels), picture == 0 ? 1u : 0u, 1.0f / float(spp),
+                                            display_scale};
+        const GroupRows rows = fold_groups((pixels + 63) / 64);
         commands.begin_pass("accumulate");
-        commands.dispatch(*accumulate, accumulate_set, vulkan::push_bytes(push),
-                          std::min(groups, shared::GROUPS_PER_ROW),
-                          (groups + shared::GROUPS_PER_ROW - 1) / shared::GROUPS_PER_ROW);
+        commands.dispatch(*accumulate[k], accumulate_sets[k], vulkan::push_bytes(push), rows.length,
+                          rows.count);
         commands.end_pass();
     };
     frame.report.compile_ms = pipelines_.take_compile_ms();
@@ -202,18 +231,18 @@ Frame Renderer::draw(const Scene& scene, const Camera& camera, const RenderSetti
         vulkan::upload(targets.view, std::span<const shared::ViewRecord>(&view, 1));
         vulkan::Commands commands(device_);
         if (picture == 0) commands.fill_buffer(targets.counters, 0);
-        if (!plan.has_background) commands.fill_buffer(targets.radiance, 0);
+        if (!plan.has_background) commands.fill_buffer(is_fused ? targets.display : targets.radiance, 0);
         commands.begin_pass("surface");
         surface.record(commands, targets);
         commands.end_pass();
         shade.record_tiles(commands);
         if (!is_reference) shade.record_shade(commands, {});
         shade.record_background(commands);
-        if (accumulate && !is_reference) record_accumulate(commands, picture);
+        if (spp > 1 && !is_reference) record_accumulate(commands, picture);
         commands.submit();
         add_pass_times(times, commands.pass_times());
         if (is_reference) run_reference(plan, shade, *reference, pixels, settings.progress, frame.report);
-        if (accumulate && is_reference) {
+        if (spp > 1 && is_reference) {
             vulkan::Commands after(device_);
             record_accumulate(after, picture);
             after.submit();
@@ -224,7 +253,9 @@ Frame Renderer::draw(const Scene& scene, const Camera& camera, const RenderSetti
         if (settings.progress && !is_reference) settings.progress((picture + 1.0) / spp, "pictures");
     }
     const Stopwatch read_watch;
-    if (!is_shared)
+    if (!is_shared && frame.has_display)
+        frame.display_copy = read_buffer<uint32_t>(targets.display, pixels);
+    else if (!is_shared)
         frame.radiance_copy = read_buffer<glm::vec4>(spp > 1 ? targets.sum : targets.radiance, pixels);
     add_pass_times(times, {{"read back", read_watch.milliseconds()}});
     times.insert(times.end(), frame.report.passes.begin(), frame.report.passes.end());

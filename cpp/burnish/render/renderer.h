@@ -86,6 +86,11 @@ private:
         std::shared_ptr<EnvironmentMaps> maps;
     };
 
+    struct CachedScene {
+        uint64_t fingerprint = 0;
+        std::unique_ptr<GpuScene> scene;
+    };
+
     /// Waits for other threads. Throws VulkanError if the device cannot be used any more.
     std::unique_lock<std::mutex> enter();
     /// Gives back what is only kept for later frames.
@@ -116,6 +121,8 @@ private:
     Prefilter& prefilter();
     TexelPairs& texel_pairs();
     Plan make_plan(const Scene& scene, const PlanSettings& settings);
+    /// Makes room for one more.
+    void forget_old_scenes();
     GpuScene& prepare_scene(const Scene& scene);
     const vulkan::Buffer& prepare_alias(const std::vector<std::shared_ptr<const Environment>>& environments);
     ReferenceBuffers make_reference_buffers(const Scene& scene, const Plan& plan, uint64_t points);
@@ -134,8 +141,7 @@ private:
     Placeholders placeholders_;
     TableCache tables_;
     SunCache suns_;
-    uint64_t scene_fingerprint_ = 0;
-    std::unique_ptr<GpuScene> scene_;
+    std::vector<CachedScene> scenes_; // the last used last
     std::vector<CachedMaps> maps_;
     std::shared_ptr<TargetPool> targets_;
     std::vector<std::weak_ptr<const Environment>> alias_environments_;

@@ -86,7 +86,7 @@ vulkan::SpecializationConstants common_constants(const ShadeTraits& traits, uint
 }
 
 void add_pattern_constants(vulkan::SpecializationConstants& constants, const ShadeTraits& traits,
-                           const PlanSettings& settings, const SampleTable& table) {
+                           const PlanSettings& settings, const SampleTable& table, uint32_t buffer_count) {
     const Sampler& sampler = settings.sampler;
     const auto* regular = std::get_if<Regular>(&sampler);
     const bool is_published = regular && regular->footprint == Footprint::published;
@@ -100,6 +100,8 @@ void add_pattern_constants(vulkan::SpecializationConstants& constants, const Sha
     if (const auto* matched = std::get_if<Matched>(&sampler))
         constants.set(shared::SPEC_SAMPLE_COUNT, matched->samples)
             .set(shared::SPEC_WIDE_COMPONENTS, traits.has_wide_components);
+    if (traits.table == TableForm::buffer || traits.table == TableForm::scaled)
+        constants.set(shared::SPEC_SAMPLE_COUNT, buffer_count);
     if (traits.table != TableForm::constant) return;
     constants.set(shared::SPEC_SAMPLE_COUNT, uint32_t(table.entries.size()));
     for (uint32_t k = 0; k < table.entries.size(); ++k)
@@ -126,6 +128,12 @@ void add_lookup_constants(vulkan::SpecializationConstants& constants, const MapS
         .set(shared::SPEC_LAST_LEVEL, is_software ? std::countr_zero(set.face_size) : 0);
 }
 
+GroupRows fold_groups(uint64_t groups) {
+    const uint64_t count =
+        std::max<uint64_t>((groups + shared::GROUPS_PER_ROW - 1) / shared::GROUPS_PER_ROW, 1);
+    return {uint32_t((groups + count - 1) / count), uint32_t(count)};
+}
+
 Placeholders::Placeholders(const vulkan::DevicePointer& device)
     : buffer(device, 256, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_STORAGE_TEXEL_BUFFER_BIT),
       rows(vulkan::texel_view(buffer, VK_FORMAT_R32G32B32A32_UINT)),
@@ -140,10 +148,12 @@ ShadePass::ShadePass(Pipelines& pipelines, const Plan& plan, const ShadeTables& 
     for (uint32_t k = 0; k < plan.classes.size(); ++k) {
         const ShadeTraits& traits = plan.classes[k].traits;
         vulkan::SpecializationConstants constants = common_constants(traits, k, is_points);
+        constants.set(shared::SPEC_IS_DISPLAY, inputs.display != nullptr);
         if (reference)
             constants.set(shared::SPEC_IS_QUADRATURE, reference->is_quadrature);
         else
-            add_pattern_constants(constants, traits, plan.settings, tables.class_tables[k]);
+            add_pattern_constants(constants, traits, plan.settings, tables.class_tables[k],
+                                  tables.class_counts[k]);
         add_lookup_constants(constants, plan.map_sets[traits.map_set]);
         const std::string shader = reference ? "shade/reference.comp" : shader_of(traits.table);
         classes_.push_back(
@@ -166,7 +176,8 @@ ShadePass::ShadePass(Pipelines& pipelines, const Plan& plan, const ShadeTables& 
         vulkan::SpecializationConstants constants;
         const bool is_turned = plan.environments[0]->rotation != glm::mat3(1.0f);
         constants.set(shared::SPEC_SHADE_CLASS, background_class)
-            .set(shared::SPEC_HAS_MAP_ROTATION, is_turned);
+            .set(shared::SPEC_HAS_MAP_ROTATION, is_turned)
+            .set(shared::SPEC_IS_DISPLAY, inputs.display != nullptr);
         uint32_t map_set = 0;
         for (uint32_t k = 0; k < plan.map_sets.size(); ++k)
             if (plan.map_sets[k].face_size == plan.environments[0]->face_size()) map_set = k;
@@ -203,6 +214,7 @@ ShadePass::Stage ShadePass::make_stage(Pipelines& pipelines, const std::string& 
     bind(shared::BINDING_TILES, targets ? targets->tiles : unused_.buffer);
     bind(shared::BINDING_TILE_COUNTS, targets ? targets->tile_counts : unused_.buffer);
     bind(shared::BINDING_RADIANCE, *inputs_.radiance);
+    bind(shared::BINDING_DISPLAY, inputs_.display ? *inputs_.display : unused_.buffer);
     bind(shared::BINDING_COUNTERS, *inputs_.counters);
     bind(shared::BINDING_STATISTICS, reference ? reference->statistics : unused_.buffer);
     bind(shared::BINDING_TEXEL_ALIAS, reference && reference->alias ? *reference->alias : unused_.buffer);
@@ -220,16 +232,16 @@ ShadePass::Stage ShadePass::make_stage(Pipelines& pipelines, const std::string& 
 void ShadePass::dispatch(vulkan::Commands& commands, const Stage& stage, shared::ShadeRecord push) const {
     if (inputs_.targets) {
         push.tile_capacity = inputs_.targets->tile_capacity;
+        push.display_scale = inputs_.display_scale;
         commands.dispatch_indirect(*stage.pipeline, stage.set, vulkan::push_bytes(push),
                                    inputs_.targets->tile_counts, stage.shade_class * sizeof(glm::uvec4));
         return;
     }
     push.point_count = inputs_.point_count;
-    const uint32_t groups = (inputs_.point_count + shared::TILE_SIZE * shared::TILE_SIZE - 1) /
-                            (shared::TILE_SIZE * shared::TILE_SIZE);
-    commands.dispatch(*stage.pipeline, stage.set, vulkan::push_bytes(push),
-                      std::min(groups, shared::GROUPS_PER_ROW),
-                      (groups + shared::GROUPS_PER_ROW - 1) / shared::GROUPS_PER_ROW);
+    const GroupRows rows =
+        fold_groups((uint64_t(inputs_.point_count) + shared::TILE_SIZE * shared::TILE_SIZE - 1) /
+                    (shared::TILE_SIZE * shared::TILE_SIZE));
+    commands.dispatch(*stage.pipeline, stage.set, vulkan::push_bytes(push), rows.length, rows.count);
 }
 
 void ShadePass::record_tiles(vulkan::Commands& commands) const {

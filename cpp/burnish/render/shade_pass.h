@@ -21,6 +21,8 @@ struct ShadeInputs {
     uint32_t point_count = 0;
     const vulkan::Buffer* radiance = nullptr; ///< vec4 a pixel or point
     const vulkan::Buffer* counters = nullptr;
+    const vulkan::Buffer* display = nullptr; ///< a byte a channel and pixel: then nothing goes to `radiance`
+    float display_scale = 1.0f;
 };
 
 /// Buffers that only a reference needs.
@@ -39,6 +41,12 @@ struct Placeholders {
 
     explicit Placeholders(const vulkan::DevicePointer& device);
 };
+
+/// Groups of a dispatch in rows of equal length; a few may be left over.
+struct GroupRows {
+    uint32_t length, count;
+};
+GroupRows fold_groups(uint64_t groups);
 
 class ShadePass {
 public:

@@ -43,17 +43,25 @@ public:
 
     TableWriter(const Plan& plan, TableCache& cache) : plan_(plan), cache_(cache) {}
 
-    Range samples(TableForm form, glm::vec2 roughness, uint32_t face_size) {
+    const SampleTable& table(TableForm form, glm::vec2 roughness, uint32_t face_size) {
         const std::array<float, 4> key = {float(form), roughness.x, roughness.y, float(face_size)};
+        auto found = tables_.find(key);
+        if (found == tables_.end())
+            found =
+                tables_.emplace(key, build_table(plan_.settings.sampler, form, roughness, face_size)).first;
+        return found->second;
+    }
+
+    /// With at least so many entries behind its first.
+    Range samples(const SampleTable& table, uint32_t count) {
+        const std::pair key(&table, count);
         auto found = ranges_.find(key);
         if (found == ranges_.end()) {
-            std::vector<glm::vec4> entries =
-                build_table(plan_.settings.sampler, form, roughness, face_size).entries;
-            const uint32_t count = uint32_t(entries.size());
-            while (entries.size() % 4)
-                entries.emplace_back(0.0f); // the kernel reads whole phases
-            const uint32_t begin = append(std::make_shared<std::vector<glm::vec4>>(std::move(entries)));
-            found = ranges_.emplace(key, Range{begin, count}).first;
+            const uint32_t used = uint32_t(table.entries.size());
+            auto entries = std::make_shared<std::vector<glm::vec4>>(table.entries);
+            entries->resize(std::max((used + 3) / 4 * 4, count),
+                            glm::vec4(0.0f)); // kernels read whole phases
+            found = ranges_.emplace(key, Range{append(std::move(entries)), used}).first;
         }
         return found->second;
     }
@@ -112,7 +120,8 @@ private:
     uint32_t entry_count_ = 0;
     std::optional<uint32_t> mixtures_begin_;
     std::map<MatchedLobe, uint32_t> view_begins_;
-    std::map<std::array<float, 4>, Range> ranges_;
+    std::map<std::array<float, 4>, SampleTable> tables_;
+    std::map<std::pair<const SampleTable*, uint32_t>, Range> ranges_;
     std::map<std::array<float, 3>, Range> albedo_ranges_;
 };
 
@@ -134,6 +143,23 @@ KurtLobe lobe_of(const Material& material, uint32_t which, const ShadeTraits& tr
         which < material.lobes.size() ? material.lobes[which] : KurtLobe{.weight = glm::vec3(0.0f)};
     if (traits.has_coat && which == 1) lobe.weight = glm::vec3(1.0f);
     return lobe;
+}
+
+/// By class: entries of the longest table that it reads without a loop, else 0.
+std::vector<uint32_t> unrolled_counts(const Scene& scene, const Plan& plan, TableWriter& writer) {
+    std::vector<uint32_t> counts(plan.classes.size(), 0);
+    for (const MaterialInstance& instance : plan.instances) {
+        const ShadeTraits& traits = plan.classes[instance.shade_class].traits;
+        if (!unrolls_samples(plan.settings, traits)) continue;
+        for (uint32_t which = 0; which < traits.lobe_count; ++which) {
+            const KurtLobe lobe = lobe_of(scene.materials[instance.material], which, traits);
+            const SampleTable& table = writer.table(traits.table, lobe.roughness,
+                                                    plan.environments[instance.environment]->face_size());
+            uint32_t& count = counts[instance.shade_class];
+            count = std::max(count, uint32_t(table.entries.size()));
+        }
+    }
+    return counts;
 }
 
 shared::MapRecord map_record(const Environment& environment, uint32_t layer,
@@ -169,6 +195,7 @@ ShadeTables make_shade_tables(const vulkan::DevicePointer& device, const Scene& 
     std::vector<shared::MaterialRecord> materials;
     std::vector<shared::LobeRecord> lobes;
     std::vector<std::set<uint32_t>> counts(plan.classes.size());
+    const std::vector<uint32_t> class_counts = unrolled_counts(scene, plan, writer);
     for (const MaterialInstance& instance : plan.instances) {
         const Material& material = scene.materials[instance.material];
         const ShadeTraits& traits = plan.classes[instance.shade_class].traits;
@@ -194,7 +221,8 @@ ShadeTables make_shade_tables(const vulkan::DevicePointer& device, const Scene& 
             } else if (traits.table == TableForm::prefiltered) {
                 counts[instance.shade_class].insert(1);
             } else if (traits.table != TableForm::none) {
-                const auto samples = writer.samples(traits.table, lobe.roughness, face_size);
+                const auto samples = writer.samples(writer.table(traits.table, lobe.roughness, face_size),
+                                                    class_counts[instance.shade_class]);
                 record.table_begin = samples.begin;
                 record.table_count = samples.count;
                 counts[instance.shade_class].insert(samples.count);
@@ -225,6 +253,7 @@ ShadeTables make_shade_tables(const vulkan::DevicePointer& device, const Scene& 
     }
 
     ShadeTables tables;
+    tables.class_counts = class_counts;
     for (size_t k = 0; k < plan.classes.size(); ++k) {
         const ShadeTraits& traits = plan.classes[k].traits;
         SampleTable table;

@@ -19,6 +19,8 @@ struct ShadeTables {
     vulkan::TexelView material_rows, lobe_rows, map_rows, albedo_texels;
     std::shared_ptr<const SampleBuffer> samples;
     std::vector<SampleTable> class_tables; ///< by class; of other forms empty
+    /// By class: entries of every table that it reads from the buffer; 0 where each has its own count.
+    std::vector<uint32_t> class_counts;
     std::vector<std::string> samples_used; ///< by class: "19 (budget 20)", one text for each lobe, joined
 };
 

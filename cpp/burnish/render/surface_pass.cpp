@@ -112,8 +112,9 @@ constexpr VkFormat DEPTH_FORMAT = VK_FORMAT_D32_SFLOAT;
 } // namespace
 
 FrameTargets::FrameTargets(const vulkan::DevicePointer& device, uint32_t width_px, uint32_t height_px,
-                           bool is_varying, bool is_summed, uint32_t classes)
-    : width(width_px), height(height_px), has_varying(is_varying), has_sum(is_summed), class_count(classes) {
+                           bool is_varying, bool is_summed, bool is_displayed, uint32_t classes)
+    : width(width_px), height(height_px), has_varying(is_varying), has_sum(is_summed),
+      has_display(is_displayed), class_count(classes) {
     const VkImageUsageFlags color = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_STORAGE_BIT;
     surface = target(device, SURFACE_FORMAT, width, height, color);
     depth = target(device, DEPTH_FORMAT, width, height, VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT);
@@ -126,7 +127,9 @@ FrameTargets::FrameTargets(const vulkan::DevicePointer& device, uint32_t width_p
     // A CPU device shades straight into memory that the host reads.
     const vulkan::MemoryUse use =
         device->info().is_software ? vulkan::MemoryUse::read_back : vulkan::MemoryUse::device;
-    radiance = vulkan::Buffer(device, pixels * sizeof(glm::vec4), storage, use);
+    const bool has_radiance = has_sum || !has_display;
+    radiance = vulkan::Buffer(device, (has_radiance ? pixels : 1) * sizeof(glm::vec4), storage, use);
+    display = vulkan::Buffer(device, (has_display ? pixels : 1) * sizeof(uint32_t), storage, use);
     sum = vulkan::Buffer(device, (has_sum ? pixels : 1) * sizeof(glm::vec4), storage, use);
     tiles = vulkan::Buffer(device, VkDeviceSize(class_count) * tile_capacity * sizeof(uint32_t), storage);
     tile_counts = vulkan::Buffer(device, class_count * sizeof(glm::uvec4),

@@ -14,13 +14,15 @@ struct FrameTargets {
     uint32_t width = 0, height = 0;
     bool has_varying = false;
     bool has_sum = false;
+    bool has_display = false;
     uint32_t class_count = 0; ///< that there is room for
     vulkan::Image surface;    ///< RG32UI: see pack_surface in glsl/lib/frame.glsl
     vulkan::Image depth;      ///< D32, reverse z
     vulkan::Image varying_diffuse, varying_specular, varying_emissive,
         varying_coat;           ///< one texel unless has_varying
-    vulkan::Buffer radiance;    ///< vec4 a pixel
+    vulkan::Buffer radiance;    ///< vec4 a pixel; one where display output needs no sum
     vulkan::Buffer sum;         ///< vec4 a pixel, with accumulation; else one
+    vulkan::Buffer display;     ///< a byte a channel and pixel, with display output; else one pixel
     vulkan::Buffer tiles;       ///< per class, room for all tiles
     vulkan::Buffer tile_counts; ///< uvec4 a class
     vulkan::Buffer counters;
@@ -29,7 +31,7 @@ struct FrameTargets {
     uint32_t tile_capacity = 0;
 
     FrameTargets(const vulkan::DevicePointer& device, uint32_t width, uint32_t height, bool has_varying,
-                 bool has_sum, uint32_t class_count);
+                 bool has_sum, bool has_display, uint32_t class_count);
 };
 
 /// Descriptors and pipelines of all draws of a plan; lives while its commands may run.

@@ -108,7 +108,7 @@ def _pair(omega_o: Array, lobe: LobeLike, mixture: Mixture, axes: Axes) -> _Pair
 
 
 def _variance(omega_o: Array, mixture: Mixture, axes: Axes, stretch: Array, pair: _Pair) -> Array:
-    """Variance per axis: .95 of the linear map's, (s b)^2 (o.h) cos_h^3/c with |g|^4 the product of the pair's."""
+    """Per axis: .95 of the linear map's, (s b)^2 (o.h) cos_h^3/c with |g|^4 the product of the pair's."""
     product = np.maximum(dot(omega_o[..., None, :2], pair.center) + omega_o[..., None, 2], 0)
     lengths = np.prod(dot(pair.g, pair.g), axis=-1)
     linear = (mixture.s * axes[1][..., None]) ** 2 * product / lengths / stretch[..., None]

@@ -136,6 +136,13 @@ def test_many_materials_read_their_samples_from_a_buffer(device, many_materials,
     np.testing.assert_allclose(frame.color[both], single.color[both], rtol=1e-4)
 
 
+def test_several_lobes_are_read_in_a_loop_only_where_they_are_many(spots64):
+    scene = scene_of(material(LOBE, LOBE), environment=spots64)
+    few, many = (plan_of(scene, burnish.Regular(count))["classes"][0] for count in (40, 41))
+    assert few["table"] == many["table"] == "buffer"
+    assert "in a loop" not in few["reason"] and "in a loop" in many["reason"]
+
+
 def by_name(effects):
     """All but why maps are read as they are: a device may have been asked for it, a plan is not."""
     return {one["name"]: one for one in effects if one["name"] != "software lookup"}

@@ -191,3 +191,34 @@ def test_degenerate_geometry_makes_finite_pictures(device, spots64):
         frame = burnish.render(scene, camera, (32, 32), sampler, device=device)
         assert np.isfinite(frame.color).all() and np.isfinite(frame.normal).all()
         assert frame.report.non_finite == 0
+
+
+def test_scenes_that_take_turns_keep_their_pictures(device):
+    """More scenes than stay on the device, each with a mesh of its own; the last one's mesh then changes."""
+    radii = (0.5, 0.6, 0.7, 0.8, 0.9, 1.0)
+    view = burnish.Camera.orthographic((0, 0, 3), (0, 0, 0), half_height=1.0, near_plane=0.1, far_plane=10)
+    material = burnish.Material(emissive=1.0)
+
+    def covered(radius):
+        scene = burnish.Scene()
+        scene.add(burnish.Mesh.sphere(radius, segments=32), material)
+        return float(burnish.render(scene, view, (32, 32), device=device).alpha.sum())
+
+    first = [covered(radius) for radius in radii]
+    assert first == sorted(set(first))
+    assert [covered(radius) for radius in (*radii, *reversed(radii))] == [*first, *reversed(first)]
+
+
+@pytest.mark.parametrize(
+    "sampler", [burnish.Regular(1, normalization="published"), burnish.Reference(method="quadrature")]
+)
+def test_every_tile_of_a_picture_of_more_than_one_row_of_groups_is_shaded_once(device, sampler):
+    """2048 x 1040 pixels are 33280 tiles; a plane straight ahead is the same everywhere."""
+    scene = burnish.Scene()
+    upright = np.array([[1, 0, 0, 0], [0, 0, -1, 0], [0, 1, 0, 0], [0, 0, 0, 1]], np.float32)
+    scene.add(burnish.Mesh.plane(size=8.0), burnish.Material(lobes=[burnish.KurtLobe()]), upright)
+    scene.environment = burnish.environments.uniform(1.0, 4)  # two batches of texels
+    view = burnish.Camera.orthographic((0, 0, 3), (0, 0, 0), half_height=1.0, near_plane=0.1, far_plane=10)
+    frame = burnish.render(scene, view, (1040, 2048), sampler, device)
+    assert frame.alpha.min() == 1 and frame.color.min() > 0
+    np.testing.assert_allclose(frame.color, frame.color[500, 500, 0], rtol=1e-3)

@@ -114,8 +114,12 @@ def test_shade_equals_oracle_for_narrow_and_wide_lobes(device, spots128, points,
 @pytest.mark.parametrize("count", [2, 3, 4])
 @pytest.mark.parametrize(
     "sampler",
-    [burnish.Regular(normalization="published"), burnish.Importance()],
-    ids=["regular", "importance"],
+    [
+        burnish.Regular(normalization="published"),
+        burnish.Regular(50, normalization="projected"),
+        burnish.Importance(),
+    ],
+    ids=["regular", "regular in a loop", "importance"],
 )
 def test_shade_adds_several_lobes(device, spots64, points, count, sampler):
     lobes = [
@@ -125,6 +129,17 @@ def test_shade_adds_several_lobes(device, spots64, points, count, sampler):
         burnish.KurtLobe(roughness=0.02, alpha=1.0, weight=(0, 0, 1)),
     ][:count]
     compare(device, spots64, lobe_material(*lobes), sampler, points)
+
+
+@pytest.mark.parametrize("samples", [5, 14, 50])
+def test_lobe_of_no_weight_changes_nothing(device, spots64, points, samples):
+    """One lobe has its samples as constants; two read them from a buffer, without a loop or in one."""
+    nothing = burnish.KurtLobe(roughness=(0.3, 0.05), weight=0.0)
+    sampler = burnish.Regular(samples, normalization="published")
+    alone = burnish.shade(spots64, lobe_material(ISOTROPIC), sampler, *points, device=device)
+    beside = burnish.shade(spots64, lobe_material(ISOTROPIC, nothing), sampler, *points, device=device)
+    error = np.abs(beside - alone).max(axis=-1) / alone.mean()
+    assert error.max() <= 10 * LIMIT and np.mean(error > LIMIT) <= SHARE_BEYOND
 
 
 def test_shade_diffuse_equals_oracle(device, smooth64, points):

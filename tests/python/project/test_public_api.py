@@ -41,6 +41,8 @@ def test_render_takes_the_documented_arguments():
         "verify",
         "error_estimate",
         "strict",
+        "output",
+        "display_exposure",
     ]
     assert defaults(burnish.render)["size"] == (540, 960)
     assert defaults(burnish.render)["filter"] == "gauss6"
