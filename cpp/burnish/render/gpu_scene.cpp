@@ -133,6 +133,7 @@ void GpuScene::upload_meshes(const vulkan::DevicePointer& device, const Scene& s
             {uint32_t(indices.size()), uint32_t(mesh.indices.size()), int32_t(vertices.size())});
         for (size_t k = 0; k < mesh.positions.size(); ++k) {
             vertices.push_back(pack_vertex(mesh, k));
+            meshes_.back().reach = glm::max(meshes_.back().reach, glm::abs(mesh.positions[k]));
             if (has_texture_vertices_) texture_vertices.push_back(pack_texture_vertex(mesh, k));
         }
         indices.insert(indices.end(), mesh.indices.begin(), mesh.indices.end());

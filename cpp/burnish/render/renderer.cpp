@@ -198,6 +198,7 @@ Frame Renderer::draw(const Scene& scene, const Camera& camera, const RenderSetti
         shared::ViewRecord view =
             make_view(camera, settings.width, settings.height, filter_offset(picture, spp));
         view.background_map = 0;
+        keep_clip_in_range(view, surface.clip_reach(view.clip_from_world));
         vulkan::upload(targets.view, std::span<const shared::ViewRecord>(&view, 1));
         vulkan::Commands commands(device_);
         if (picture == 0) commands.fill_buffer(targets.counters, 0);

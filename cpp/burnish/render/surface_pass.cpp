@@ -227,6 +227,18 @@ const vulkan::DescriptorSet& SurfacePass::set_for(const vulkan::GraphicsPipeline
     return set;
 }
 
+double SurfacePass::clip_reach(const glm::mat4& clip_from_world) const {
+    double largest = 0.0;
+    for (const Draw& draw : draws_) {
+        const glm::dmat4 clip = glm::dmat4(clip_from_world) * glm::dmat4(draw.record.world_from_object);
+        const glm::dvec4 reach = glm::abs(clip[0]) * double(draw.range.reach.x) +
+                                 glm::abs(clip[1]) * double(draw.range.reach.y) +
+                                 glm::abs(clip[2]) * double(draw.range.reach.z) + glm::abs(clip[3]);
+        largest = std::max({largest, reach.x, reach.y, reach.z, reach.w});
+    }
+    return largest;
+}
+
 void SurfacePass::record(vulkan::Commands& commands, FrameTargets& targets) const {
     vulkan::RenderingTargets rendering;
     const auto clear = [](vulkan::Image& image) {
