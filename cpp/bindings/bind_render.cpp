@@ -98,7 +98,8 @@ py::dict plan_dict(const Scene& scene, const Sampler& sampler, int64_t spp, cons
                    bool is_software) {
     SunCache suns;
     PlanSettings settings = plan_settings(sampler, spp, filter);
-    settings.lookup = choose_lookup(is_software, {}, std::numeric_limits<uint64_t>::max());
+    constexpr uint64_t no_limit = std::numeric_limits<uint64_t>::max();
+    settings.lookup = choose_lookup(is_software, {}, no_limit, no_limit);
     const Plan plan = make_plan(scene, settings, suns);
     py::list passes, classes;
     for (const PassLine& line : plan.passes)

@@ -50,6 +50,7 @@ SHARED_CONST uint BINDING_TEXEL_ALIAS = 16u;
 SHARED_CONST uint BINDING_STATISTICS = 17u;
 SHARED_CONST uint BINDING_TILE_COUNTS = 18u; // xyz: indirect dispatch, w: tiles
 SHARED_CONST uint BINDING_MAP_PAIRS = 19u;
+SHARED_CONST uint BINDING_STORED_PAIRS = 20u;
 
 SHARED_CONST uint BINDING_ACCUMULATE_SAMPLE = 0u;
 SHARED_CONST uint BINDING_ACCUMULATE_SUM = 1u;
@@ -82,7 +83,9 @@ SHARED_CONST uint SPEC_LAST_LEVEL = 23u; // log2 of the size of the map's faces
 SHARED_CONST uint SPEC_SAMPLES = 100u; // four floats a sample follow
 
 SHARED_CONST uint LOOKUP_SAMPLER = 0u; // the device's
-SHARED_CONST uint LOOKUP_SOFTWARE = 1u;   // our own: see shared/texel_pairs.h
+SHARED_CONST uint LOOKUP_TEXELS = 1u;  // our own (shared/texel_pairs.h), from a texel buffer
+SHARED_CONST uint LOOKUP_STORAGE = 2u; // our own, from a storage buffer: more pairs than texel buffers hold
+
 // Passes that stop what is not finite.
 SHARED_CONST uint GUARD_SHADE = 0u;
 SHARED_CONST uint GUARD_BACKGROUND = 1u;

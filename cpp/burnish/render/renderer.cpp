@@ -58,8 +58,9 @@ void add_stopped(Report& report, const vulkan::Buffer& counters) {
 
 Renderer::Renderer(std::shared_ptr<vulkan::Device> device, std::optional<MapLookup> lookup)
     : device_(std::move(device)),
-      lookup_(choose_lookup(device_->info().is_software, lookup, device_->limits().maxTexelBufferElements)),
-      pipelines_(device_), pyramid_(device_), placeholders_(device_),
+      lookup_(choose_lookup(device_->info().is_software, lookup, device_->limits().maxTexelBufferElements,
+                            device_->limits().maxStorageBufferRange / sizeof(glm::uvec4))),
+      pipelines_(device_), map_tools_(device_), placeholders_(device_),
       targets_(std::make_shared<TargetPool>(device_)) {}
 
 std::unique_lock<std::mutex> Renderer::enter() {
@@ -72,9 +73,7 @@ void Renderer::forget() {
     maps_.clear();
     alias_environments_.clear();
     alias_ = {};
-    pyramid_.free_scratches();
-    prefilter_.reset();
-    texel_pairs_.reset();
+    map_tools_.free();
     targets_->clear();
 }
 

@@ -81,8 +81,7 @@ public:
 private:
     struct CachedMaps {
         std::vector<std::weak_ptr<const Environment>> environments;
-        std::optional<PyramidFilter> filter;   // none: level 0 alone
-        std::optional<PrefilterKernel> kernel; // none: a pyramid
+        MapSettings settings;
         std::shared_ptr<EnvironmentMaps> maps;
     };
 
@@ -113,8 +112,6 @@ private:
                                         const Progress& progress);
     std::vector<std::shared_ptr<EnvironmentMaps>> prepare_maps(const Plan& plan,
                                                                std::vector<vulkan::PassTime>& times);
-    Prefilter& prefilter();
-    TexelPairs& texel_pairs();
     Plan make_plan(const Scene& scene, const PlanSettings& settings);
     GpuScene& prepare_scene(const Scene& scene);
     const vulkan::Buffer& prepare_alias(const std::vector<std::shared_ptr<const Environment>>& environments);
@@ -128,9 +125,7 @@ private:
     LookupChoice lookup_;
     std::mutex mutex_;
     Pipelines pipelines_;
-    Pyramid pyramid_;
-    std::unique_ptr<Prefilter> prefilter_;    // once a frame calls for it
-    std::unique_ptr<TexelPairs> texel_pairs_; // likewise
+    MapTools map_tools_;
     Placeholders placeholders_;
     TableCache tables_;
     SunCache suns_;

@@ -21,6 +21,18 @@ uint32_t form_of(AlphaForm form) {
     return shared::ALPHA_GENERAL;
 }
 
+uint32_t code_of(MapLookup lookup) {
+    switch (lookup) {
+    case MapLookup::sampler:
+        return shared::LOOKUP_SAMPLER;
+    case MapLookup::software:
+        return shared::LOOKUP_TEXELS;
+    case MapLookup::software_stored:
+        return shared::LOOKUP_STORAGE;
+    }
+    return shared::LOOKUP_SAMPLER;
+}
+
 uint32_t table_of(TableForm form, const Sampler& sampler) {
     switch (form) {
     case TableForm::constant:
@@ -121,8 +133,8 @@ vulkan::Image one_texel(const vulkan::DevicePointer& device, VkFormat format) {
 } // namespace
 
 void add_lookup_constants(vulkan::SpecializationConstants& constants, const MapSet& set) {
-    const bool is_software = set.lookup == MapLookup::software;
-    constants.set(shared::SPEC_LOOKUP, is_software ? shared::LOOKUP_SOFTWARE : shared::LOOKUP_SAMPLER)
+    const bool is_software = set.lookup != MapLookup::sampler;
+    constants.set(shared::SPEC_LOOKUP, code_of(set.lookup))
         .set(shared::SPEC_LAST_LEVEL, is_software ? std::countr_zero(set.face_size) : 0);
 }
 
@@ -198,7 +210,8 @@ ShadePass::Stage ShadePass::make_stage(Pipelines& pipelines, const std::string& 
     bind_texels(shared::BINDING_MAP_RECORDS, tables_.map_rows);
     bind_texels(shared::BINDING_SAMPLE_TABLE, tables_.sample_texels);
     bind_texels(shared::BINDING_ALBEDO_TABLE, tables_.albedo_texels);
-    bind_texels(shared::BINDING_MAP_PAIRS, maps && maps->pairs().get() ? maps->pairs() : unused_.rows);
+    if (stage.set.has_binding(shared::BINDING_MAP_PAIRS))
+        maps->pairs().bind(stage.set, shared::BINDING_MAP_PAIRS, shared::BINDING_STORED_PAIRS);
     bind(shared::BINDING_POINTS, inputs_.points ? *inputs_.points : unused_.buffer);
     bind(shared::BINDING_TILES, targets ? targets->tiles : unused_.buffer);
     bind(shared::BINDING_TILE_COUNTS, targets ? targets->tile_counts : unused_.buffer);
