@@ -53,18 +53,13 @@ double Renderer::time_blits(const std::shared_ptr<const Environment>& environmen
     settings.layers = 6;
     settings.is_cube = true;
     vulkan::Image image(device_, settings);
-    vulkan::ImageRegion from, to;
-    from.layer_count = to.layer_count = 6;
+    vulkan::ImageRegion finest;
+    finest.layer_count = 6;
     const std::vector<uint16_t> texels = environment->half_rgba();
-    vulkan::upload(image, from, std::as_bytes(std::span(texels)), VK_IMAGE_LAYOUT_GENERAL);
+    vulkan::upload(image, finest, std::as_bytes(std::span(texels)), VK_IMAGE_LAYOUT_GENERAL);
     vulkan::Commands commands(device_);
     commands.begin_pass("blits");
-    for (uint32_t level = 1; level < settings.levels; ++level) {
-        from.level = level - 1;
-        to.level = level;
-        commands.blit(image, from, image, to, VK_FILTER_LINEAR);
-        commands.barrier();
-    }
+    commands.blit_levels(image);
     commands.end_pass();
     commands.submit();
     return commands.pass_times()[0].milliseconds;

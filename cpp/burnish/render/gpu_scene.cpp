@@ -159,13 +159,7 @@ vulkan::Image GpuScene::upload_image(const TextureImage& picture, bool is_srgb) 
     vulkan::Image image(device_, settings);
     vulkan::upload(image, {}, std::as_bytes(std::span(picture.rgba)), VK_IMAGE_LAYOUT_GENERAL);
     vulkan::Commands commands(device_);
-    for (uint32_t level = 1; level < settings.levels; ++level) {
-        vulkan::ImageRegion from, to;
-        from.level = level - 1;
-        to.level = level;
-        commands.blit(image, from, image, to, VK_FILTER_LINEAR);
-        commands.barrier();
-    }
+    commands.blit_levels(image);
     commands.transition(image, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
     commands.submit();
     return image;
