@@ -145,7 +145,10 @@ py::array_t<float> normal_of(render::Frame& frame) {
 /// In strict mode nothing comes back where a value was stopped.
 void raise_if_stopped(const render::Report& report) {
     if (report.stopped.empty()) return;
-    PyErr_SetString(PyExc_FloatingPointError, report.problems.back().c_str());
+    std::string text;
+    for (const render::StoppedValues& one : report.stopped)
+        text += (text.empty() ? "" : "; ") + one.sentence;
+    PyErr_SetString(PyExc_FloatingPointError, text.c_str());
     throw py::error_already_set();
 }
 

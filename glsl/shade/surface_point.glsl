@@ -122,10 +122,11 @@ mat3 lobe_frame(mat3 frame, LobeRecord record) {
 }
 
 // The only way into the picture.
-void store_radiance(PointToShade point, vec3 radiance, float alpha, uint pass_index) {
+void store_radiance(PointToShade point, vec3 radiance, float alpha) {
     if (!point.is_mine) return;
     if (SOURCE == SOURCE_POINTS && !point.is_seen) radiance = vec3(0.0);
-    radiance_out[point.index] = vec4(stop_non_finite(radiance, point.index, pass_index), alpha);
+    radiance_out[point.index] = vec4(radiance, alpha);
+    leave_sign(radiance);
 }
 
 #endif

@@ -86,7 +86,7 @@ SHARED_CONST uint LOOKUP_SAMPLER = 0u; // the device's
 SHARED_CONST uint LOOKUP_TEXELS = 1u;  // our own (shared/texel_pairs.h), from a texel buffer
 SHARED_CONST uint LOOKUP_STORAGE = 2u; // our own, from a storage buffer: more pairs than texel buffers hold
 
-// Passes that stop what is not finite.
+// Passes whose values are stopped where they are not finite.
 SHARED_CONST uint GUARD_SHADE = 0u;
 SHARED_CONST uint GUARD_BACKGROUND = 1u;
 SHARED_CONST uint GUARD_REFERENCE = 2u;

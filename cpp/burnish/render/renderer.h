@@ -120,6 +120,8 @@ private:
     void run_reference(const Plan& plan, const ShadePass& pass, const ReferenceBuffers& buffers,
                        uint64_t points, const Progress& progress, Report& report);
     Report start_report(const Scene& scene, const Plan& plan, const ShadeTables& tables) const;
+    /// What the guards counted; `report` knows whether points or pixels.
+    static void add_stopped(Report& report, const vulkan::Buffer& counters);
 
     std::shared_ptr<vulkan::Device> device_;
     LookupChoice lookup_;

@@ -119,15 +119,9 @@ void add_pattern_constants(vulkan::SpecializationConstants& constants, const Sha
             constants.set(shared::SPEC_SAMPLES + 4 * k + c, table.entries[k][int(c)]);
 }
 
-vulkan::Image one_texel(const vulkan::DevicePointer& device, VkFormat format) {
-    vulkan::ImageSettings settings;
-    settings.format = format;
-    settings.usage = VK_IMAGE_USAGE_STORAGE_BIT;
-    vulkan::Image image(device, settings);
-    vulkan::Commands commands(device);
-    commands.transition(image, VK_IMAGE_LAYOUT_GENERAL);
-    commands.submit();
-    return image;
+uint32_t group_count(uint32_t points) {
+    constexpr uint32_t group = shared::TILE_SIZE * shared::TILE_SIZE;
+    return (points + group - 1) / group;
 }
 
 } // namespace
@@ -137,12 +131,6 @@ void add_lookup_constants(vulkan::SpecializationConstants& constants, const MapS
     constants.set(shared::SPEC_LOOKUP, code_of(set.lookup))
         .set(shared::SPEC_LAST_LEVEL, is_software ? std::countr_zero(set.face_size) : 0);
 }
-
-Placeholders::Placeholders(const vulkan::DevicePointer& device)
-    : buffer(device, 256, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_STORAGE_TEXEL_BUFFER_BIT),
-      rows(vulkan::texel_view(buffer, VK_FORMAT_R32G32B32A32_UINT)),
-      surface(one_texel(device, VK_FORMAT_R32G32_UINT)),
-      varying(one_texel(device, VK_FORMAT_R16G16B16A16_SFLOAT)) {}
 
 ShadePass::ShadePass(Pipelines& pipelines, const Plan& plan, const ShadeTables& tables,
                      const std::vector<std::shared_ptr<EnvironmentMaps>>& maps, const ShadeInputs& inputs,
@@ -162,6 +150,7 @@ ShadePass::ShadePass(Pipelines& pipelines, const Plan& plan, const ShadeTables& 
             make_stage(pipelines, shader, constants, k, maps[traits.map_set].get(), reference));
         classes_.back().name = message(reference ? "reference " : "shade ", k);
     }
+    guard_.push_back(make_stage(pipelines, "shade/guard.comp", {}, 0, nullptr, nullptr));
     if (is_points) return;
 
     const uint32_t background_class = uint32_t(plan.classes.size());
@@ -238,8 +227,7 @@ void ShadePass::dispatch(vulkan::Commands& commands, const Stage& stage, shared:
         return;
     }
     push.point_count = inputs_.point_count;
-    const uint32_t groups = (inputs_.point_count + shared::TILE_SIZE * shared::TILE_SIZE - 1) /
-                            (shared::TILE_SIZE * shared::TILE_SIZE);
+    const uint32_t groups = group_count(inputs_.point_count);
     commands.dispatch(*stage.pipeline, stage.set, vulkan::push_bytes(push),
                       std::min(groups, shared::GROUPS_PER_ROW),
                       (groups + shared::GROUPS_PER_ROW - 1) / shared::GROUPS_PER_ROW);
@@ -278,6 +266,24 @@ void ShadePass::record_background(vulkan::Commands& commands) const {
         dispatch(commands, stage, {});
         commands.end_pass();
     }
+}
+
+void ShadePass::record_guard(vulkan::Commands& commands) const {
+    const Stage& guard = guard_.front();
+    shared::ShadeRecord push{};
+    push.point_count = inputs_.point_count;
+    commands.begin_pass("guard");
+    commands.dispatch_indirect(*guard.pipeline, guard.set, vulkan::push_bytes(push), *inputs_.counters,
+                               offsetof(shared::Counters, guard));
+    commands.end_pass();
+}
+
+shared::Counters ShadePass::no_counts(uint32_t point_count) {
+    const uint32_t groups = group_count(point_count);
+    shared::Counters counters{};
+    counters.guard[1] = std::min(groups, shared::GROUPS_PER_ROW);
+    counters.guard[2] = (groups + shared::GROUPS_PER_ROW - 1) / shared::GROUPS_PER_ROW;
+    return counters;
 }
 
 } // namespace burnish::render

@@ -131,7 +131,8 @@ FrameTargets::FrameTargets(const vulkan::DevicePointer& device, uint32_t width_p
     tiles = vulkan::Buffer(device, VkDeviceSize(class_count) * tile_capacity * sizeof(uint32_t), storage);
     tile_counts = vulkan::Buffer(device, class_count * sizeof(glm::uvec4),
                                  storage | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT);
-    counters = vulkan::Buffer(device, sizeof(shared::Counters), storage);
+    counters =
+        vulkan::Buffer(device, sizeof(shared::Counters), storage | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT);
     view = vulkan::Buffer(device, sizeof(shared::ViewRecord),
                           storage | VK_BUFFER_USAGE_STORAGE_TEXEL_BUFFER_BIT);
     view_rows = vulkan::texel_view(view, VK_FORMAT_R32G32B32A32_UINT);
