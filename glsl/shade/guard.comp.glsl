@@ -11,6 +11,5 @@ void main() {
     uint index = group * (TILE_SIZE * TILE_SIZE) + gl_LocalInvocationIndex;
     if (index >= push.point_count) return;
     vec4 radiance = radiance_out[index];
-    uint pass_index = radiance.a == 0.0 ? GUARD_BACKGROUND : GUARD_SHADE; // of coverage: the background has none
-    radiance_out[index] = vec4(stop_non_finite(radiance.rgb, index, pass_index), radiance.a);
+    radiance_out[index] = vec4(stop_non_finite(radiance.rgb, index, shaded_by(radiance.a)), radiance.a);
 }

@@ -16,6 +16,9 @@ void leave_sign(vec3 radiance) {
     if (!is_finite(radiance)) counters.guard[0] = 1u;
 }
 
+// Where a pixel of this coverage comes from.
+uint shaded_by(float alpha) { return alpha == 0.0 ? GUARD_BACKGROUND : GUARD_SHADE; }
+
 // What is not finite becomes black; it is counted for its pass, and the lowest index where that happened is kept.
 vec3 stop_non_finite(vec3 radiance, uint index, uint pass_index) {
     if (!is_finite(radiance)) {
