@@ -1,4 +1,4 @@
-"""Nothing that is not finite leaves a pass: the report says how many became black, where, in which pass."""
+"""Nothing that is not finite leaves a frame: the report says how many became black, where, in which pass."""
 
 import shutil
 import subprocess
