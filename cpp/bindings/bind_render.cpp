@@ -99,7 +99,8 @@ py::dict plan_dict(const Scene& scene, const Sampler& sampler, int64_t spp, cons
     SunCache suns;
     PlanSettings settings = plan_settings(sampler, spp, filter);
     settings.display_exposure = display_exposure;
-    settings.lookup = choose_lookup(is_software, {}, std::numeric_limits<uint64_t>::max());
+    constexpr uint64_t no_limit = std::numeric_limits<uint64_t>::max();
+    settings.lookup = choose_lookup(is_software, {}, no_limit, no_limit);
     const Plan plan = make_plan(scene, settings, suns);
     py::list passes, classes;
     for (const PassLine& line : plan.passes)
@@ -153,7 +154,10 @@ py::array_t<float> normal_of(render::Frame& frame) {
 /// In strict mode nothing comes back where a value was stopped.
 void raise_if_stopped(const render::Report& report) {
     if (report.stopped.empty()) return;
-    PyErr_SetString(PyExc_FloatingPointError, report.problems.back().c_str());
+    std::string text;
+    for (const render::StoppedValues& one : report.stopped)
+        text += (text.empty() ? "" : "; ") + one.sentence;
+    PyErr_SetString(PyExc_FloatingPointError, text.c_str());
     throw py::error_already_set();
 }
 

@@ -28,6 +28,7 @@ py::dict limits_of(const vulkan::Device& device) {
     result["max_image_array_layers"] = limits.maxImageArrayLayers;
     result["max_texel_buffer_elements"] = limits.maxTexelBufferElements;
     result["max_storage_buffer_bytes"] = limits.maxStorageBufferRange;
+    result["sub_pixel_bits"] = limits.subPixelPrecisionBits;
     result["max_push_constant_bytes"] = limits.maxPushConstantsSize;
     result["max_allocation_bytes"] = device.features().max_allocation_bytes;
     result["timestamp_period_ns"] = device.features().timestamp_period_ns;

@@ -11,6 +11,7 @@ layout(constant_id = SPEC_LAST_LEVEL) const int LAST_LEVEL = 0; // of the faces:
 
 layout(binding = BINDING_MAPS) uniform samplerCubeArray maps;
 layout(binding = BINDING_MAP_PAIRS, rgba32ui) uniform readonly uimageBuffer map_pairs;
+layout(std430, binding = BINDING_STORED_PAIRS) readonly buffer StoredPairs { uvec4 stored_pairs[]; };
 
 // Where one bilinear lookup lands.
 struct PairAim {
@@ -81,7 +82,7 @@ MapAim aim_at_map(CubePlace place, float layer, float level) {
     aim.direction = place.direction;
     aim.level = level;
     aim.layer = layer;
-    if (LOOKUP == LOOKUP_SOFTWARE) {
+    if (LOOKUP != LOOKUP_SAMPLER) {
         float last = float(LAST_LEVEL);
         float clamped = level > 0.0 ? level : 0.0;
         clamped = clamped < last ? clamped : last;
@@ -96,8 +97,13 @@ MapAim aim_at_map(CubePlace place, float layer, float level) {
 
 MapAim aim_at_map(vec3 direction, float layer, float level) { return aim_at_map(place_on_cube(direction), layer, level); }
 
+uvec4 load_pair(int k) {
+    if (LOOKUP == LOOKUP_STORAGE) return stored_pairs[k];
+    return imageLoad(map_pairs, k);
+}
+
 vec3 load_pairs(PairAim aim) {
-    uvec4 above = imageLoad(map_pairs, aim.at), below = imageLoad(map_pairs, aim.at + aim.pitch);
+    uvec4 above = load_pair(aim.at), below = load_pair(aim.at + aim.pitch);
     vec2 r = unpackHalf2x16(above.r), g = unpackHalf2x16(above.g), b = unpackHalf2x16(above.b);
     r += aim.fraction.y * (unpackHalf2x16(below.r) - r);
     g += aim.fraction.y * (unpackHalf2x16(below.g) - g);

@@ -10,11 +10,26 @@
 layout(local_size_x = 64) in;
 
 layout(constant_id = SPEC_PACK_BORDER) const bool IS_BORDER = false;
+layout(constant_id = SPEC_PACK_IS_STORED) const bool IS_STORED = false;
 
 layout(push_constant) uniform Push { PackRecord record; };
 // Half RGBA, in Vulkan's order and orientation.
 layout(binding = BINDING_PACK_TEXELS, rg32ui) uniform readonly uimageBuffer texels;
 layout(binding = BINDING_PACK_PAIRS, rgba32ui) uniform writeonly uimageBuffer pairs;
+layout(std430, binding = BINDING_PACK_STORED_TEXELS) readonly buffer StoredTexels { uvec2 stored_texels[]; };
+layout(std430, binding = BINDING_PACK_STORED_PAIRS) writeonly buffer StoredPairs { uvec4 stored_pairs[]; };
+
+uvec2 load_texel(int index) {
+    if (IS_STORED) return stored_texels[index];
+    return imageLoad(texels, index).xy;
+}
+
+void store_pair(int index, uvec4 pair) {
+    if (IS_STORED)
+        stored_pairs[index] = pair;
+    else
+        imageStore(pairs, index, pair);
+}
 
 int texel_index(int layer, ivec2 place) {
     int size = int(record.size);
@@ -42,7 +57,7 @@ int index_at(vec3 point, int cube) {
 }
 
 vec3 radiance_at(vec3 point, int cube) {
-    uvec2 texel = imageLoad(texels, index_at(point, cube)).xy;
+    uvec2 texel = load_texel(index_at(point, cube));
     return vec3(unpackHalf2x16(texel.x), unpackHalf2x16(texel.y).x);
 }
 
@@ -52,13 +67,13 @@ uvec2 bordered_texel(int cube, int face, int x, int y) {
     ivec2 inside = clamp(ivec2(x, y) - 1, ivec2(0), ivec2(size - 1));
     int index = texel_index(6 * cube + face, vulkan_place(face, inside));
     bvec2 is_beyond = notEqual(inside, ivec2(x, y) - 1);
-    if (!IS_BORDER || !any(is_beyond)) return imageLoad(texels, index).xy;
+    if (!IS_BORDER || !any(is_beyond)) return load_texel(index);
 
     // Coordinates of texel centres are multiples of 1/size, a power of two: exact in floats.
     float texel = 1.0 / float(size);
     vec2 edge = clamp(vec2(2 * x - 1, 2 * y - 1) * texel - 1.0, -1.0, 1.0);
     vec3 axis = own_direction(face, vec2(0.0));
-    if (!all(is_beyond)) return imageLoad(texels, index_at(own_direction(face, edge) - texel * axis, cube)).xy;
+    if (!all(is_beyond)) return load_texel(index_at(own_direction(face, edge) - texel * axis, cube));
     vec3 along_x = own_direction(face, vec2(edge.x, 0.0)) - axis;
     vec3 along_y = own_direction(face, edge) - axis - along_x;
     vec3 corner = axis + along_x + along_y;
@@ -84,6 +99,6 @@ void main() {
     int cube = layer / 6, face = layer - 6 * cube;
     uvec2 left = bordered_texel(cube, face, x, y), right = bordered_texel(cube, face, x + 1, y);
     int begin = int(record.begin) + cube * int(record.cube_stride) + face * pitch * (pitch + 1);
-    imageStore(pairs, begin + y * pitch + x,
+    store_pair(begin + y * pitch + x,
                uvec4(left.x & 0xffffu | right.x << 16, left.x >> 16 | right.x & 0xffff0000u, left.y & 0xffffu | right.y << 16, 0u));
 }

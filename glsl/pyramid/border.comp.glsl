@@ -47,5 +47,5 @@ void main() {
         y = side == 2 ? -1 - along / half_size : size + along / half_size;
     }
     uvec4 pair = uvec4(load_folded(level, layer, x, y), load_folded(level, layer, x + 1, y));
-    imageStore(texels, pair_index(level, layer, x, y), is_corner ? uvec4(0u) : pair);
+    store_pair(pair_index(level, layer, x, y), is_corner ? uvec4(0u) : pair);
 }

@@ -42,7 +42,7 @@ void main() {
     [[unroll]] for (int row = 0; row < 2 * BLOCK_Y + TAPS - 2; ++row) {
         vec4 taps[2 * (BLOCK_X + 2)];
         [[unroll]] for (int k = first_pair; k < end_pair; ++k) {
-            uvec4 pair = imageLoad(texels, row_begin + row * source.pitch + k);
+            uvec4 pair = load_pair(row_begin + row * source.pitch + k);
             taps[2 * k] = unpack_texel(pair.xy);
             taps[2 * k + 1] = unpack_texel(pair.zw);
         }
@@ -85,7 +85,7 @@ void main() {
         [[unroll]] for (int x = 0; x < BLOCK_X; x += 2) {
             if (first.x + x < size && first.y + y < size) {
                 uvec4 pair = uvec4(pack_texel(sum[y * BLOCK_X + x]), pack_texel(sum[y * BLOCK_X + x + 1]));
-                imageStore(texels, pair_index(target, layer, first.x + x, first.y + y), pair);
+                store_pair(pair_index(target, layer, first.x + x, first.y + y), pair);
             }
         }
     }

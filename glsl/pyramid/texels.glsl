@@ -4,7 +4,10 @@
 
 #include "shared/pyramid.h"
 
+layout(constant_id = SPEC_PYRAMID_IS_STORED) const bool IS_STORED = false;
+
 layout(binding = BINDING_PYRAMID_TEXELS, rgba32ui) uniform uimageBuffer texels;
+layout(std430, binding = BINDING_PYRAMID_STORED_TEXELS) buffer StoredTexels { uvec4 stored_texels[]; };
 layout(push_constant) uniform Push { PyramidRecord record; };
 
 struct Level {
@@ -22,8 +25,20 @@ int pair_index(Level level, int layer, int x, int y) {
     return level.begin + (layer * (level.size + 2 * border) + y + border) * level.pitch + ((x + border) >> 1);
 }
 
+uvec4 load_pair(int index) {
+    if (IS_STORED) return stored_texels[index];
+    return imageLoad(texels, index);
+}
+
+void store_pair(int index, uvec4 pair) {
+    if (IS_STORED)
+        stored_texels[index] = pair;
+    else
+        imageStore(texels, index, pair);
+}
+
 uvec2 load_texel(Level level, int layer, int x, int y) {
-    uvec4 pair = imageLoad(texels, pair_index(level, layer, x, y));
+    uvec4 pair = load_pair(pair_index(level, layer, x, y));
     return (x & 1) == 0 ? pair.xy : pair.zw;
 }
 

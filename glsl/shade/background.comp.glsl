@@ -14,5 +14,5 @@ void main() {
     point.index = uint(point.pixel.y) * view.width_px + uint(point.pixel.x);
     MapRecord map = load_map_record(view.background_map);
     vec3 direction = environment_from_world(map, pixel_ray(view, vec2(point.pixel)));
-    store_radiance(point, look_up_finest(direction, float(map.layer)) * map.radiance_scale, 0.0, GUARD_BACKGROUND);
+    store_radiance(point, look_up_finest(direction, float(map.layer)) * map.radiance_scale, 0.0);
 }

@@ -19,7 +19,14 @@ layout(constant_id = SPEC_WITHOUT_LOOKUPS) const bool IS_WITHOUT_LOOKUPS = false
 
 #include "shade/sample_constants.glsl"
 
+layout(constant_id = SPEC_SAMPLE_TABLE_IS_STORED) const bool SAMPLE_TABLE_IS_STORED = false;
 layout(binding = BINDING_SAMPLE_TABLE, rgba32f) uniform readonly imageBuffer sample_table;
+layout(std430, binding = BINDING_STORED_SAMPLE_TABLE) readonly buffer StoredSampleTable { vec4 stored_sample_table[]; };
+
+vec4 sample_entry(int index) {
+    if (SAMPLE_TABLE_IS_STORED) return stored_sample_table[index];
+    return imageLoad(sample_table, index);
+}
 
 // What all samples of one lobe at one point share.
 struct LobeView {
@@ -134,7 +141,7 @@ LobeSums gather_constant(LobeView v) {
 void gather_phase(LobeView v, uint first, uint count, inout LobeSums sums) {
     Lookup lookups[PHASE];
     [[unroll]] for (uint j = 0u; j < PHASE; ++j)
-        if (j < count) lookups[j] = place_lookup(v, imageLoad(sample_table, int(first + j)));
+        if (j < count) lookups[j] = place_lookup(v, sample_entry(int(first + j)));
     [[unroll]] for (uint j = 0u; j < PHASE; ++j)
         if (j < count) add_lookup(sums, lookups[j]);
 }

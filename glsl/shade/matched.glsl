@@ -220,7 +220,7 @@ void place_pair(LobeView v, MixtureView view, vec4 entry, out Lookup one, out Lo
     other = place_narrow(v, view, pair, -pair.d, v.local_o.z - od, pair.lengths.yx, pair.inverse.yx);
 }
 
-vec4 mixture_entry(MixtureView view, uint which) { return imageLoad(sample_table, view.row + int(which)); }
+vec4 mixture_entry(MixtureView view, uint which) { return sample_entry(view.row + int(which)); }
 
 #define PLACE_PAIR(k, one, other) if (SAMPLE_COUNT / 2u > uint(k)) place_pair(v, view, mixture_entry(view, odd + uint(k)), one, other);
 #define ADD_PAIR(k, one, other) if (SAMPLE_COUNT / 2u > uint(k)) { add_lookup(sums, one); add_lookup(sums, other); }

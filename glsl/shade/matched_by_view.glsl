@@ -44,7 +44,7 @@ Lookup place_by_view(LobeView v, TableView view, vec4 entry, float schlick) {
     return lookup;
 }
 
-#define VIEW_ENTRY(k) imageLoad(sample_table, row + k)
+#define VIEW_ENTRY(k) sample_entry(row + k)
 #define PLACE_BY_VIEW(k, c, lookup) if (SAMPLE_COUNT > uint(k)) lookup = place_by_view(v, view, VIEW_ENTRY(k), schlick[c]);
 #define GATHER_BY_VIEW(a, b, c, d)                                                                                     \
     if (HAS_FRESNEL && SAMPLE_COUNT > uint(a)) schlick = VIEW_ENTRY(int(SAMPLE_COUNT) + a / 4);                        \

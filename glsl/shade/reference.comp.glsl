@@ -136,5 +136,5 @@ void main() {
         radiance += point_diffuse(point) * irradiance_over_pi(map.irradiance, environment_from_world(map, point.frame[2]));
     radiance *= map.radiance_scale;
     if (HAS_EMISSIVE) radiance += point_emissive(point);
-    store_radiance(point, radiance, 1.0, GUARD_REFERENCE);
+    store_radiance(point, stop_non_finite(radiance, point.index, GUARD_REFERENCE), 1.0);
 }

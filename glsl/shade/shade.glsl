@@ -49,7 +49,7 @@ void main() {
         radiance += shade_lobe(point, map, material.lobe_begin + which, which);
     radiance *= map.radiance_scale;
     if (HAS_EMISSIVE) radiance += point_emissive(point);
-    store_radiance(point, radiance, 1.0, GUARD_SHADE);
+    store_radiance(point, radiance, 1.0);
 }
 
 #endif

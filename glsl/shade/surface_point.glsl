@@ -134,12 +134,16 @@ mat3 lobe_frame(mat3 frame, LobeRecord record) {
 }
 
 // The only way into the picture.
-void store_radiance(PointToShade point, vec3 radiance, float alpha, uint pass_index) {
+void store_radiance(PointToShade point, vec3 radiance, float alpha) {
     if (!point.is_mine) return;
     if (SOURCE == SOURCE_POINTS && !point.is_seen) radiance = vec3(0.0);
-    vec4 color = vec4(stop_non_finite(radiance, point.index, pass_index), alpha);
-    if (IS_DISPLAY) display_out[point.index] = display_pixel(color, push.display_scale);
-    else radiance_out[point.index] = color;
+    if (IS_DISPLAY) {
+        vec4 color = vec4(stop_non_finite(radiance, point.index, shaded_by(alpha)), alpha);
+        display_out[point.index] = display_pixel(color, push.display_scale);
+        return;
+    }
+    radiance_out[point.index] = vec4(radiance, alpha);
+    leave_sign(radiance);
 }
 
 #endif

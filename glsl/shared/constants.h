@@ -57,7 +57,9 @@ SHARED_CONST uint BINDING_TEXEL_ALIAS = 16u;
 SHARED_CONST uint BINDING_STATISTICS = 17u;
 SHARED_CONST uint BINDING_TILE_COUNTS = 18u; // xyz: indirect dispatch, w: tiles
 SHARED_CONST uint BINDING_MAP_PAIRS = 19u;
-SHARED_CONST uint BINDING_DISPLAY = 24u; // 8 bits a channel in place of BINDING_RADIANCE
+SHARED_CONST uint BINDING_STORED_PAIRS = 20u;
+SHARED_CONST uint BINDING_STORED_SAMPLE_TABLE = 21u;
+SHARED_CONST uint BINDING_DISPLAY = 22u; // 8 bits a channel in place of BINDING_RADIANCE
 
 SHARED_CONST uint BINDING_ACCUMULATE_SAMPLE = 0u;
 SHARED_CONST uint BINDING_ACCUMULATE_SUM = 1u;
@@ -88,12 +90,15 @@ SHARED_CONST uint SPEC_WIDE_COMPONENTS = 20u;
 SHARED_CONST uint SPEC_SUN_COUNT = 21u;
 SHARED_CONST uint SPEC_LOOKUP = 22u;
 SHARED_CONST uint SPEC_LAST_LEVEL = 23u; // log2 of the size of the map's faces
-SHARED_CONST uint SPEC_IS_DISPLAY = 30u; // of the accumulation too
+SHARED_CONST uint SPEC_SAMPLE_TABLE_IS_STORED = 24u; // in a storage buffer: a texel buffer holds fewer
+SHARED_CONST uint SPEC_IS_DISPLAY = 25u; // of the accumulation too
 SHARED_CONST uint SPEC_SAMPLES = 100u; // four floats a sample follow
 
 SHARED_CONST uint LOOKUP_SAMPLER = 0u; // the device's
-SHARED_CONST uint LOOKUP_SOFTWARE = 1u;   // our own: see shared/texel_pairs.h
-// Passes that stop what is not finite.
+SHARED_CONST uint LOOKUP_TEXELS = 1u;  // our own (shared/texel_pairs.h), from a texel buffer
+SHARED_CONST uint LOOKUP_STORAGE = 2u; // our own, from a storage buffer: more pairs than texel buffers hold
+
+// Passes whose values are stopped where they are not finite.
 SHARED_CONST uint GUARD_SHADE = 0u;
 SHARED_CONST uint GUARD_BACKGROUND = 1u;
 SHARED_CONST uint GUARD_REFERENCE = 2u;

@@ -16,10 +16,12 @@ SHARED_CONST uint PYRAMID_BLOCK_X = 2u;
 SHARED_CONST uint PYRAMID_BLOCK_Y = 4u;
 
 SHARED_CONST uint BINDING_PYRAMID_TEXELS = 0u;
+SHARED_CONST uint BINDING_PYRAMID_STORED_TEXELS = 1u;
 
 SHARED_CONST uint SPEC_PYRAMID_TAPS = 0u;    // 2, 4 or 6
 SHARED_CONST uint SPEC_PYRAMID_LOCAL_X = 1u; // invocations of a workgroup
 SHARED_CONST uint SPEC_PYRAMID_LOCAL_Y = 2u;
+SHARED_CONST uint SPEC_PYRAMID_IS_STORED = 3u; // the texels lie in a storage buffer: a texel buffer holds fewer
 
 // Push constants of both kernels. Places and lengths in the buffer count pairs of texels.
 struct PyramidRecord {

@@ -77,12 +77,13 @@ struct SurfacePoint {
 };
 SHARED_SIZE(SurfacePoint, 48)
 
-// Values that passes stopped because they were not finite, by GUARD_*.
+// Values that were stopped because they were not finite, by the pass that they come from, GUARD_*.
 struct Counters {
     uint stopped[4];
     uint first[4]; // complement of the lowest index into the picture or the list of points; 0 where none was stopped
+    uint guard[4];  // indirect dispatch of the guard: the first is 0 until a pass stored what is not finite
 };
-SHARED_SIZE(Counters, 32)
+SHARED_SIZE(Counters, 48)
 
 // What the surface pass needs of a metallic-roughness material to map it at every pixel.
 struct SurfaceRecord {

@@ -18,7 +18,10 @@ SHARED_BEGIN
 
 SHARED_CONST uint BINDING_PACK_TEXELS = 0u;
 SHARED_CONST uint BINDING_PACK_PAIRS = 1u;
+SHARED_CONST uint BINDING_PACK_STORED_TEXELS = 2u;
+SHARED_CONST uint BINDING_PACK_STORED_PAIRS = 3u;
 SHARED_CONST uint SPEC_PACK_BORDER = 0u;
+SHARED_CONST uint SPEC_PACK_IS_STORED = 1u; // both lie in storage buffers
 
 // Push constants of the packing of one level.
 struct PackRecord {

@@ -11,6 +11,7 @@ from . import scaling
 from .bench import Bench
 from .compare import SLOWER, compare, read_run, table
 from .effects import bench_effects
+from .guards import bench_guards
 from .hand_loop import bench_loop
 from .lookups import bench_lookups
 from .machine import bench_machine
@@ -27,6 +28,7 @@ PARTS: dict[str, tuple[Callable[[Bench], None], str]] = {
     "maps": (bench_maps, "levels that Matched and Prefiltered read"),
     "display": (bench_display, "8-bit sRGB made on the device or in numpy"),
     "pyramids": (bench_pyramids, "pyramids by three filters"),
+    "guards": (bench_guards, "shading with and without looking for values that are not finite"),
     "effects": (bench_effects, "every effect absent, present but zero, present"),
 }
 CURVES: dict[str, tuple[Callable[[Bench, bool], None], str]] = {

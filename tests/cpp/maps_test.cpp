@@ -1,3 +1,4 @@
+#include "burnish/plan/map_lookup.h"
 #include "burnish/render/environment_maps.h"
 #include "burnish/sampling/cube_texels.h"
 #include "burnish/sampling/prefilter_table.h"
@@ -79,11 +80,21 @@ TEST(CubeTexels, FaceAxesAreThoseOfTheEnvironment) {
     }
 }
 
+TEST(LookupChoice, TakesTexelBuffersBeforeStorageBuffersBeforeTheSampler) {
+    const uint64_t pairs = cube_pair_count(16);
+    const LookupChoice choice = choose_lookup(true, {}, pairs, 2 * pairs + 1);
+    EXPECT_EQ(choice.of(16, 1), MapLookup::software);
+    EXPECT_EQ(choice.of(16, 2), MapLookup::software_stored);
+    EXPECT_EQ(choice.of(16, 3), MapLookup::sampler);
+    EXPECT_EQ(choose_lookup(false, {}, pairs, pairs).of(16, 1), MapLookup::sampler);
+    EXPECT_EQ(choose_lookup(false, MapLookup::software, pairs, pairs).of(16, 1), MapLookup::software);
+}
+
 TEST(EnvironmentMaps, StoreEachEnvironmentAsNearestHalves) {
     const std::vector<std::shared_ptr<const Environment>> environments{random_environment(16, 1),
                                                                        random_environment(16, 2)};
-    Pyramid pyramid(device());
-    EnvironmentMaps maps(device(), pyramid, environments, PyramidFilter::gauss6);
+    MapTools tools(device());
+    EnvironmentMaps maps(tools, environments, {.filter = PyramidFilter::gauss6, .kernel = {}});
     EXPECT_EQ(maps.count(), 2u);
     EXPECT_EQ(maps.face_size(), 16u);
     EXPECT_EQ(maps.level_count(), 5u);
@@ -104,8 +115,9 @@ TEST(EnvironmentMaps, StoreEachEnvironmentAsNearestHalves) {
 
 TEST(EnvironmentMaps, ReportWhatUploadAndPyramidTook) {
     const auto environment = random_environment(64, 1);
-    Pyramid pyramid(device());
-    const EnvironmentMaps maps(device(), pyramid, std::span(&environment, 1), PyramidFilter::box);
+    MapTools tools(device());
+    const EnvironmentMaps maps(tools, std::span(&environment, 1),
+                               {.filter = PyramidFilter::box, .kernel = {}});
     ASSERT_EQ(maps.pass_times().size(), 2u);
     EXPECT_EQ(maps.pass_times()[0].name, "upload");
     EXPECT_GT(maps.pass_times()[0].milliseconds, 0.0);
@@ -117,13 +129,13 @@ TEST(EnvironmentMaps, ReportWhatUploadAndPyramidTook) {
 
 TEST(EnvironmentMaps, ArePrefilteredFromTheirPyramidsIfAskedTo) {
     const auto environment = random_environment(16, 1);
-    Pyramid pyramid(device());
-    Prefilter prefilter(device());
-    EnvironmentMaps maps(device(), pyramid, std::span(&environment, 1), PyramidFilter::gauss6, &prefilter);
+    MapTools tools(device());
+    EnvironmentMaps maps(tools, std::span(&environment, 1),
+                         {.filter = PyramidFilter::gauss6, .kernel = PrefilterKernel::lobe});
     ASSERT_EQ(maps.pass_times().size(), 3u);
     EXPECT_EQ(maps.pass_times()[2].name, "prefilter");
     EXPECT_EQ(maps.image().layout(), VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
-    EnvironmentMaps plain(device(), pyramid, std::span(&environment, 1), PyramidFilter::gauss6);
+    EnvironmentMaps plain(tools, std::span(&environment, 1), {.filter = PyramidFilter::gauss6, .kernel = {}});
     const auto levels = maps.read_levels(0), others = plain.read_levels(0);
     ASSERT_EQ(levels.size(), others.size());
     EXPECT_EQ(levels[0], others[0]);
@@ -146,9 +158,10 @@ TEST(PrefilterTable, HoldsWholePhasesOfSamplesAboveTheHorizon) {
 }
 
 TEST(EnvironmentMaps, RefuseWhatDoesNotFitTogether) {
-    Pyramid pyramid(device());
+    MapTools tools(device());
     const auto make = [&](const std::vector<std::shared_ptr<const Environment>>& environments) {
-        return refusal([&] { EnvironmentMaps(device(), pyramid, environments, PyramidFilter::box); });
+        return refusal(
+            [&] { EnvironmentMaps(tools, environments, {.filter = PyramidFilter::box, .kernel = {}}); });
     };
     const uint32_t most = device()->limits().maxImageArrayLayers / 6;
     const auto small = random_environment(2, 1);
@@ -156,12 +169,12 @@ TEST(EnvironmentMaps, RefuseWhatDoesNotFitTogether) {
     EXPECT_PRED2(holds, make(std::vector(most + 1, small)), "got " + std::to_string(most + 1));
     EXPECT_PRED2(holds, make({small, nullptr}), "environments: expected environments, got none");
     EXPECT_PRED2(holds, make({small, random_environment(4, 1)}), "expected one face size, got 2 and 4");
-    Prefilter prefilter(device());
     EXPECT_PRED2(holds, refusal([&] {
-                     EnvironmentMaps(device(), pyramid, std::span(&small, 1), std::nullopt, &prefilter);
+                     EnvironmentMaps(tools, std::span(&small, 1),
+                                     {.filter = {}, .kernel = PrefilterKernel::lobe});
                  }),
                  "filter: expected one, from whose pyramid to prefilter, got none");
-    EnvironmentMaps maps(device(), pyramid, std::span(&small, 1), PyramidFilter::box);
+    EnvironmentMaps maps(tools, std::span(&small, 1), {.filter = PyramidFilter::box, .kernel = {}});
     EXPECT_EQ(refusal([&] { maps.read_levels(1); }), "cube: expected 0..0, got 1");
 }
 

@@ -38,8 +38,8 @@ const std::shared_ptr<const vulkan::Device>& device() {
 
 std::vector<Faces> levels_of(uint32_t size, const Faces& faces, PyramidFilter filter) {
     const auto environment = std::make_shared<const Environment>(Environment::from_faces(size, faces));
-    Pyramid pyramid(device());
-    EnvironmentMaps maps(device(), pyramid, std::span(&environment, 1), filter);
+    MapTools tools(device());
+    EnvironmentMaps maps(tools, std::span(&environment, 1), {.filter = filter, .kernel = {}});
     return maps.read_levels(0);
 }
 
@@ -199,11 +199,12 @@ TEST(Pyramid, MakesEachOfManyCubesAsIfAlone) {
         environments.push_back(std::make_shared<const Environment>(
             Environment::from_faces(face_size, random_faces(face_size, cube))));
     }
-    Pyramid pyramid(device());
+    MapTools tools(device());
     for (const PyramidFilter filter : {PyramidFilter::box, PyramidFilter::gauss6}) {
-        EnvironmentMaps all(device(), pyramid, environments, filter);
+        EnvironmentMaps all(tools, environments, {.filter = filter, .kernel = {}});
         for (uint32_t cube = 0; cube < cube_count; ++cube) {
-            EnvironmentMaps alone(device(), pyramid, std::span(environments).subspan(cube, 1), filter);
+            EnvironmentMaps alone(tools, std::span(environments).subspan(cube, 1),
+                                  {.filter = filter, .kernel = {}});
             EXPECT_EQ(all.read_levels(cube), alone.read_levels(0)) << "cube " << cube;
         }
     }
@@ -217,8 +218,8 @@ TEST(Pyramid, SplitsCubesThatNeedTooMuchRoomAtOnce) {
         environments.push_back(
             std::make_shared<const Environment>(Environment::from_faces(face_size, faces)));
     }
-    Pyramid pyramid(device());
-    EnvironmentMaps maps(device(), pyramid, environments, PyramidFilter::gauss4);
+    MapTools tools(device());
+    EnvironmentMaps maps(tools, environments, {.filter = PyramidFilter::gauss4, .kernel = {}});
     for (uint32_t cube = 0; cube < 5; ++cube) {
         for (const Faces& level : maps.read_levels(cube)) {
             EXPECT_EQ(*std::min_element(level.begin(), level.end()), float(cube + 1));

@@ -61,9 +61,22 @@ bool any_lobe(const Material& material, const std::function<bool(const KurtLobe&
     return std::any_of(material.lobes.begin(), material.lobes.end(), asks);
 }
 
-size_t software_set_count(const Plan& plan) {
+size_t set_count(const Plan& plan, MapLookup lookup) {
     return size_t(std::count_if(plan.map_sets.begin(), plan.map_sets.end(),
-                                [](const MapSet& set) { return set.lookup == MapLookup::software; }));
+                                [&](const MapSet& set) { return set.lookup == lookup; }));
+}
+
+std::string lookup_reason(const Plan& plan) {
+    const LookupChoice& lookup = plan.settings.lookup;
+    const auto some = [&](MapLookup which, const char* text) {
+        const size_t count = set_count(plan, which);
+        return count ? message("; maps of ", count, " of ", plan.map_sets.size(), " sizes are ", text) : "";
+    };
+    if (lookup.wanted == MapLookup::sampler) return lookup.reason;
+    return lookup.reason +
+           some(MapLookup::software_stored,
+                "read from storage buffers: they are too large for texel buffers") +
+           some(MapLookup::sampler, "read by the device's sampler: they are too large for its buffers");
 }
 
 std::string why_at_every_point(const ShadeTraits& traits, const std::vector<const Material*>& materials) {
@@ -205,14 +218,8 @@ void add_effect_lines(const Scene& scene, Plan& plan) {
                                           [](const auto& one) { return one->rotation != glm::mat3(1.0f); });
     plan.effects.push_back({"map rotation", has_rotation,
                             has_rotation ? "an environment is turned" : "no environment is turned"});
-    const size_t software = software_set_count(plan);
-    const bool is_too_large =
-        plan.settings.lookup.wanted == MapLookup::software && software < plan.map_sets.size();
-    plan.effects.push_back(
-        {"software lookup", software > 0,
-         is_too_large ? message("maps of ", plan.map_sets.size() - software, " of ", plan.map_sets.size(),
-                                " sizes are too large for one of the device's buffers")
-                      : plan.settings.lookup.reason});
+    const bool is_software = set_count(plan, MapLookup::sampler) < plan.map_sets.size();
+    plan.effects.push_back({"software lookup", is_software, lookup_reason(plan)});
     plan.effects.push_back({"background", plan.has_background,
                             plan.has_background     ? "the environment is shown where no object is"
                             : scene.show_background ? "the scene has no environment"
@@ -244,7 +251,8 @@ void add_pass_lines(Plan& plan) {
     if (has_lookups && std::holds_alternative<Matched>(plan.settings.sampler))
         add("prefilter",
             "levels that are round on the sphere, so that a lookup has one width everywhere, once per map");
-    if (software_set_count(plan) > 0) add("pack", "pairs of texels for the software lookup, once per map");
+    if (set_count(plan, MapLookup::sampler) < plan.map_sets.size())
+        add("pack", "pairs of texels for the software lookup, once per map");
     add("surface", plan.has_varying
                        ? "rasterises into the wide G-buffer: textures or vertex colours vary over a surface"
                        : "rasterises into 8 bytes a pixel and depth");
@@ -254,6 +262,7 @@ void add_pass_lines(Plan& plan) {
     for (size_t k = 0; k < plan.classes.size(); ++k)
         plan.passes.push_back({message(is_reference ? "reference " : "shade ", k), plan.classes[k].reason});
     if (plan.has_background) add("background", "the environment where no object is");
+    add("guard", "blackens and counts what is not finite, where there is any");
     if (plan.settings.spp > 1) add("accumulate", message("mean of ", plan.settings.spp, " pictures"));
     add("read back", "picture, depth and normals to the host");
 }

@@ -29,13 +29,24 @@ uint64_t cube_pair_count(uint32_t face_size) {
 }
 
 MapLookup LookupChoice::of(uint32_t face_size, uint64_t cubes) const {
-    return cube_pair_count(face_size) * cubes <= most_pairs ? wanted : MapLookup::sampler;
+    if (wanted == MapLookup::sampler) return wanted;
+    const uint64_t pairs = cube_pair_count(face_size) * cubes;
+    if (pairs <= most_texel_pairs) return MapLookup::software;
+    return pairs <= most_stored_pairs ? MapLookup::software_stored : MapLookup::sampler;
 }
 
-LookupChoice choose_lookup(bool is_software, std::optional<MapLookup> asked, uint64_t most_pairs) {
-    if (asked) return {*asked, "asked for", most_pairs};
-    if (!is_software) return {MapLookup::sampler, "the device has a sampler in hardware", most_pairs};
-    return {MapLookup::software, "the device is a CPU: its sampler would take most of a frame", most_pairs};
+LookupChoice choose_lookup(bool is_software, std::optional<MapLookup> asked, uint64_t most_texel_pairs,
+                           uint64_t most_stored_pairs) {
+    LookupChoice choice{MapLookup::sampler, "the device has a sampler in hardware", most_texel_pairs,
+                        most_stored_pairs};
+    if (asked) {
+        choice.wanted = *asked;
+        choice.reason = "asked for";
+    } else if (is_software) {
+        choice.wanted = MapLookup::software;
+        choice.reason = "the device is a CPU: its sampler would take most of a frame";
+    }
+    return choice;
 }
 
 } // namespace burnish

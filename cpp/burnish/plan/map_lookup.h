@@ -8,10 +8,13 @@
 namespace burnish {
 
 enum class MapLookup {
-    sampler, ///< the device's own
-    software ///< ours, from pairs of texels in a buffer
+    sampler,        ///< the device's own
+    software,       ///< ours, from pairs of texels in a texel buffer
+    software_stored ///< ours, from a storage buffer, several times slower on a CPU: they are more than a
+                    ///< texel buffer holds
 };
 
+/// "sampler" or "software".
 const char* map_lookup_name(MapLookup lookup);
 /// None for "auto". Throws std::invalid_argument that lists the names.
 std::optional<MapLookup> map_lookup(const std::string& name);
@@ -24,13 +27,15 @@ uint64_t cube_pair_count(uint32_t face_size);
 struct LookupChoice {
     MapLookup wanted = MapLookup::sampler;
     std::string reason = "the device has a sampler in hardware";
-    uint64_t most_pairs = 0; ///< that one of its buffers can hold
+    uint64_t most_texel_pairs = 0;  ///< that one of its texel buffers holds
+    uint64_t most_stored_pairs = 0; ///< that one of its storage buffers holds
 
-    /// For an array of cubes: the wanted one where its buffers can hold them.
+    /// For an array of cubes: the wanted one where buffers can hold them, texel buffers before others.
     MapLookup of(uint32_t face_size, uint64_t cubes) const;
 };
 
 /// `asked`: by the user, none for the device's best.
-LookupChoice choose_lookup(bool is_software, std::optional<MapLookup> asked, uint64_t most_pairs);
+LookupChoice choose_lookup(bool is_software, std::optional<MapLookup> asked, uint64_t most_texel_pairs,
+                           uint64_t most_stored_pairs);
 
 } // namespace burnish

@@ -13,14 +13,13 @@ std::vector<double> Renderer::time_lookups(const std::shared_ptr<const Environme
     const auto lock = enter();
     constexpr uint32_t width = 1920, height = 1080;
     const SampleTable table = build_sample_table(sampler, glm::vec2(roughness), environment->face_size());
-    EnvironmentMaps maps(device_, pyramid_, std::span(&environment, 1), PyramidFilter::gauss6, nullptr,
-                         PrefilterKernel::lobe,
-                         lookup_.wanted == MapLookup::software ? &texel_pairs() : nullptr);
+    const MapLookup lookup = lookup_.of(environment->face_size(), 1);
+    EnvironmentMaps maps(map_tools_, std::span(&environment, 1), {PyramidFilter::gauss6, {}, lookup});
     const vulkan::Buffer radiance(device_, width * height * sizeof(glm::vec4),
                                   VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
     const vulkan::Sampler cube_sampler(device_, {});
     vulkan::SpecializationConstants constants;
-    add_lookup_constants(constants, {environment->face_size(), {}, lookup_.wanted});
+    add_lookup_constants(constants, {environment->face_size(), {}, lookup});
     constants.set(shared::SPEC_SAMPLE_COUNT, uint32_t(table.entries.size()));
     for (uint32_t k = 0; k < table.entries.size(); ++k)
         for (uint32_t c = 0; c < 4; ++c)
@@ -28,8 +27,8 @@ std::vector<double> Renderer::time_lookups(const std::shared_ptr<const Environme
     const vulkan::ComputePipeline& pipeline = pipelines_.compute("shade/lookups_alone.comp", constants);
     vulkan::DescriptorSet set(pipeline);
     set.bind(shared::BINDING_MAPS, maps.image().view_as(VK_IMAGE_VIEW_TYPE_CUBE_ARRAY), cube_sampler)
-        .bind_texel_buffer(shared::BINDING_MAP_PAIRS, maps.pairs().get() ? maps.pairs() : placeholders_.rows)
         .bind(shared::BINDING_RADIANCE, radiance);
+    maps.pairs().bind(set, shared::BINDING_MAP_PAIRS, shared::BINDING_STORED_PAIRS);
     shared::ShadeRecord push{};
     push.point_count = width;
     std::vector<double> times;
@@ -54,18 +53,13 @@ double Renderer::time_blits(const std::shared_ptr<const Environment>& environmen
     settings.layers = 6;
     settings.is_cube = true;
     vulkan::Image image(device_, settings);
-    vulkan::ImageRegion from, to;
-    from.layer_count = to.layer_count = 6;
+    vulkan::ImageRegion finest;
+    finest.layer_count = 6;
     const std::vector<uint16_t> texels = environment->half_rgba();
-    vulkan::upload(image, from, std::as_bytes(std::span(texels)), VK_IMAGE_LAYOUT_GENERAL);
+    vulkan::upload(image, finest, std::as_bytes(std::span(texels)), VK_IMAGE_LAYOUT_GENERAL);
     vulkan::Commands commands(device_);
     commands.begin_pass("blits");
-    for (uint32_t level = 1; level < settings.levels; ++level) {
-        from.level = level - 1;
-        to.level = level;
-        commands.blit(image, from, image, to, VK_FILTER_LINEAR);
-        commands.barrier();
-    }
+    commands.blit_levels(image);
     commands.end_pass();
     commands.submit();
     return commands.pass_times()[0].milliseconds;

@@ -33,17 +33,32 @@ uint32_t common_face_size(EnvironmentSpan environments, uint32_t most_layers) {
 
 } // namespace
 
-EnvironmentMaps::EnvironmentMaps(std::shared_ptr<const vulkan::Device> device, Pyramid& pyramid,
-                                 EnvironmentSpan environments, std::optional<PyramidFilter> filter,
-                                 Prefilter* prefilter, PrefilterKernel kernel, TexelPairs* packer) {
+Prefilter& MapTools::prefilter() {
+    if (!prefilter_) prefilter_ = std::make_unique<Prefilter>(device_);
+    return *prefilter_;
+}
+
+TexelPairs& MapTools::texel_pairs() {
+    if (!texel_pairs_) texel_pairs_ = std::make_unique<TexelPairs>(device_);
+    return *texel_pairs_;
+}
+
+void MapTools::free() {
+    pyramid_.free_scratches();
+    prefilter_.reset();
+    texel_pairs_.reset();
+}
+
+EnvironmentMaps::EnvironmentMaps(MapTools& tools, EnvironmentSpan environments, const MapSettings& wanted) {
+    const std::shared_ptr<const vulkan::Device>& device = tools.device();
     const uint32_t face_size = common_face_size(environments, device->limits().maxImageArrayLayers);
-    if (prefilter && !filter)
+    if (wanted.kernel && !wanted.filter)
         throw std::invalid_argument("filter: expected one, from whose pyramid to prefilter, got none");
     const auto cube_count = static_cast<uint32_t>(environments.size());
     vulkan::ImageSettings settings;
     settings.format = VK_FORMAT_R16G16B16A16_SFLOAT;
     settings.width = settings.height = face_size;
-    settings.levels = filter ? vulkan::full_levels(face_size, face_size) : 1;
+    settings.levels = wanted.filter ? vulkan::full_levels(face_size, face_size) : 1;
     settings.layers = 6 * cube_count;
     settings.is_cube = true;
     image_ = vulkan::Image(device, settings);
@@ -52,7 +67,7 @@ EnvironmentMaps::EnvironmentMaps(std::shared_ptr<const vulkan::Device> device, P
     std::vector<std::vector<uint16_t>> texels;
     for (const auto& environment : environments)
         texels.push_back(environment->half_rgba());
-    const bool is_staged = filter && pyramid.stage(image_, texels, *filter);
+    const bool is_staged = wanted.filter && tools.pyramid().stage(image_, texels, *wanted.filter);
     for (uint32_t cube = 0; cube < cube_count && !is_staged; ++cube) {
         vulkan::ImageRegion faces;
         faces.base_layer = 6 * cube;
@@ -60,41 +75,47 @@ EnvironmentMaps::EnvironmentMaps(std::shared_ptr<const vulkan::Device> device, P
         vulkan::upload(image_, faces, std::as_bytes(std::span(texels[cube])));
     }
     const std::chrono::duration<double, std::milli> upload_time = std::chrono::steady_clock::now() - start;
+    pass_times_ = {{"upload", upload_time.count()}};
 
+    const bool is_packed = wanted.lookup != MapLookup::sampler;
+    const auto access = wanted.lookup == MapLookup::software_stored ? vulkan::ElementAccess::storage
+                                                                    : vulkan::ElementAccess::texels;
+    if (!is_packed) pairs_ = vulkan::ElementBuffer(device, 1, VK_FORMAT_R32G32B32A32_UINT, access);
+    const auto pack = [&](vulkan::Commands& commands) {
+        if (!is_packed) return;
+        commands.begin_pass("pack");
+        pairs_ = tools.texel_pairs().record(commands, image_, access);
+        commands.end_pass();
+    };
+    const auto submit = [&](vulkan::Commands& commands) {
+        commands.submit();
+        pass_times_.insert(pass_times_.end(), commands.pass_times().begin(), commands.pass_times().end());
+    };
     vulkan::Commands commands(device);
-    if (filter) {
+    if (wanted.filter) {
         commands.begin_pass("pyramid");
-        pyramid.record(commands, image_, 0, cube_count, *filter,
-                       is_staged ? Pyramid::Finest::staged : Pyramid::Finest::in_image);
+        tools.pyramid().record(commands, image_, 0, cube_count, *wanted.filter,
+                               is_staged ? Pyramid::Finest::staged : Pyramid::Finest::in_image);
         commands.end_pass();
     } else {
         commands.transition(image_, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
     }
-    if (packer) {
-        commands.begin_pass("pack");
-        pairs_ = packer->record(commands, image_);
-        commands.end_pass();
-    }
+    pack(commands);
     vulkan::Image prefiltered;
-    if (prefilter) {
+    if (wanted.kernel) {
         prefiltered = vulkan::Image(device, settings);
         commands.begin_pass("prefilter");
-        prefilter->record(commands, image_, pairs_.view, prefiltered, kernel, *filter);
+        tools.prefilter().record(commands, image_, wanted.lookup, pairs_, prefiltered, *wanted.kernel,
+                                 *wanted.filter);
         commands.end_pass();
     }
-    commands.submit();
-    pass_times_ = {{"upload", upload_time.count()}};
-    pass_times_.insert(pass_times_.end(), commands.pass_times().begin(), commands.pass_times().end());
-    if (!prefilter) return;
+    submit(commands);
+    if (!wanted.kernel) return;
 
     image_ = std::move(prefiltered);
-    if (!packer) return;
     vulkan::Commands after(device);
-    after.begin_pass("pack");
-    pairs_ = packer->record(after, image_);
-    after.end_pass();
-    after.submit();
-    pass_times_.insert(pass_times_.end(), after.pass_times().begin(), after.pass_times().end());
+    pack(after);
+    submit(after);
 }
 
 std::vector<std::vector<float>> EnvironmentMaps::read_levels(uint32_t cube) {

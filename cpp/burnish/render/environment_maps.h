@@ -13,21 +13,46 @@
 
 namespace burnish {
 
+/// What maps are made with, kept for the next ones. Not for several threads at once.
+class MapTools {
+public:
+    explicit MapTools(std::shared_ptr<const vulkan::Device> device)
+        : device_(std::move(device)), pyramid_(device_) {}
+
+    const std::shared_ptr<const vulkan::Device>& device() const { return device_; }
+    Pyramid& pyramid() { return pyramid_; }
+    Prefilter& prefilter();
+    TexelPairs& texel_pairs();
+    /// Gives back what is only kept for the next maps.
+    void free();
+
+private:
+    std::shared_ptr<const vulkan::Device> device_;
+    Pyramid pyramid_;
+    std::unique_ptr<Prefilter> prefilter_;    // once a map calls for it
+    std::unique_ptr<TexelPairs> texel_pairs_; // likewise
+};
+
+struct MapSettings {
+    std::optional<PyramidFilter> filter;   ///< of the pyramid; none: level 0 alone
+    std::optional<PrefilterKernel> kernel; ///< levels prefiltered from the pyramid; none: the pyramid itself
+    /// Of the software lookups: packed for it, too, and what is prefiltered is read by it.
+    MapLookup lookup = MapLookup::sampler;
+
+    bool operator==(const MapSettings&) const = default;
+};
+
 class EnvironmentMaps {
 public:
     /// Uploads the environments, all of one face size, as RGBA16F rounded to nearest even, and makes their
-    /// pyramids; without a filter level 0 alone. With `prefilter` the levels are prefiltered from the
-    /// pyramids instead. With `packer` the maps are packed for the software lookup too, and what is
-    /// prefiltered is read by it. Rotation and exposure stay with the environments: they are applied when a
-    /// map is looked up. Throws std::invalid_argument if there is none, if one is null or of another size, if
-    /// prefiltered maps are to come without a filter, or if the device's images have too few layers.
-    EnvironmentMaps(std::shared_ptr<const vulkan::Device> device, Pyramid& pyramid,
-                    std::span<const std::shared_ptr<const Environment>> environments,
-                    std::optional<PyramidFilter> filter, Prefilter* prefilter = nullptr,
-                    PrefilterKernel kernel = PrefilterKernel::lobe, TexelPairs* packer = nullptr);
+    /// levels. Rotation and exposure stay with the environments: they are applied when a map is looked up.
+    /// Throws std::invalid_argument if there is none, if one is null or of another size, if prefiltered maps
+    /// are to come without a filter, or if the device's images have too few layers.
+    EnvironmentMaps(MapTools& tools, std::span<const std::shared_ptr<const Environment>> environments,
+                    const MapSettings& settings);
 
-    /// The packed maps; a null handle where they were not packed.
-    const vulkan::TexelView& pairs() const { return pairs_.view; }
+    /// The packed maps; a single pair where they were not packed.
+    const vulkan::ElementBuffer& pairs() const { return pairs_; }
 
     /// In SHADER_READ_ONLY_OPTIMAL; view() is the cube array, or the cube where there is one only.
     const vulkan::Image& image() const { return image_; }
@@ -43,7 +68,7 @@ public:
 
 private:
     vulkan::Image image_;
-    PairBuffer pairs_;
+    vulkan::ElementBuffer pairs_;
     std::vector<vulkan::PassTime> pass_times_;
 };
 

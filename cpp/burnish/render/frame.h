@@ -22,6 +22,7 @@ struct StoppedValues {
     const char* pass;
     uint32_t count;
     uint32_t first; ///< lowest index: of the pixel, counted by rows, or of the point
+    std::string sentence;
 };
 
 /// What a frame cost and did. Times are milliseconds by the device's clock unless said otherwise.

@@ -149,6 +149,7 @@ void GpuScene::upload_meshes(const vulkan::DevicePointer& device, const Scene& s
             {uint32_t(indices.size()), uint32_t(mesh.indices.size()), int32_t(vertices.size())});
         for (size_t k = 0; k < mesh.positions.size(); ++k) {
             vertices.push_back(pack_vertex(mesh, k));
+            meshes_.back().reach = glm::max(meshes_.back().reach, glm::abs(mesh.positions[k]));
             if (has_texture_vertices_) texture_vertices.push_back(pack_texture_vertex(mesh, k));
         }
         indices.insert(indices.end(), mesh.indices.begin(), mesh.indices.end());
@@ -181,13 +182,7 @@ vulkan::Image GpuScene::upload_image(const TextureImage& picture, bool is_srgb) 
     vulkan::Image image(device_, settings);
     vulkan::upload(image, {}, std::as_bytes(std::span(picture.rgba)), VK_IMAGE_LAYOUT_GENERAL);
     vulkan::Commands commands(device_);
-    for (uint32_t level = 1; level < settings.levels; ++level) {
-        vulkan::ImageRegion from, to;
-        from.level = level - 1;
-        to.level = level;
-        commands.blit(image, from, image, to, VK_FILTER_LINEAR);
-        commands.barrier();
-    }
+    commands.blit_levels(image);
     commands.transition(image, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
     commands.submit();
     return image;

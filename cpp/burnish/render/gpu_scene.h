@@ -18,6 +18,7 @@ struct MeshRange {
     uint32_t first_index = 0;
     uint32_t index_count = 0;
     int32_t vertex_offset = 0;
+    glm::vec3 reach{0.0f}; ///< largest absolute coordinates, object space
 };
 
 /// One texture of one material, ready to be bound.

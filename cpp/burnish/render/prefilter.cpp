@@ -25,19 +25,16 @@ VkImageCopy finest_level(const vulkan::ImageSettings& settings) {
 
 Prefilter::Prefilter(std::shared_ptr<const vulkan::Device> device)
     : device_(std::move(device)), shader_(device_, "pyramid/prefilter.comp", pyramid_prefilter_comp_spv),
-      sampler_(device_, {}) {
-    no_pairs_.buffer = vulkan::Buffer(device_, 16, VK_BUFFER_USAGE_STORAGE_TEXEL_BUFFER_BIT);
-    no_pairs_.view = vulkan::texel_view(no_pairs_.buffer, VK_FORMAT_R32G32B32A32_UINT);
-}
+      sampler_(device_, {}) {}
 
-const vulkan::ComputePipeline& Prefilter::pipeline(PrefilterKernel kernel, uint32_t packed_size) {
-    const auto key = std::pair(kernel, packed_size);
+const vulkan::ComputePipeline& Prefilter::pipeline(PrefilterKernel kernel, uint32_t face_size,
+                                                   MapLookup lookup) {
+    const auto key = std::tuple(kernel, face_size, lookup);
     const auto found = pipelines_.find(key);
     if (found != pipelines_.end()) return found->second;
     auto constants = vulkan::SpecializationConstants{}.set(shared::SPEC_PREFILTER_IS_SPHERICAL,
                                                            kernel == PrefilterKernel::spherical);
-    render::add_lookup_constants(
-        constants, {packed_size, {}, packed_size > 0 ? MapLookup::software : MapLookup::sampler});
+    render::add_lookup_constants(constants, {face_size, {}, lookup});
     return pipelines_.emplace(key, vulkan::ComputePipeline(device_, shader_, constants)).first->second;
 }
 
@@ -65,8 +62,9 @@ const Prefilter::Scratch& Prefilter::scratch(const Key& key) {
     return scratches_.emplace(key, std::move(scratch)).first->second;
 }
 
-void Prefilter::record(vulkan::Commands& commands, vulkan::Image& pyramid, const vulkan::TexelView& pairs,
-                       vulkan::Image& prefiltered, PrefilterKernel kernel, PyramidFilter filter) {
+void Prefilter::record(vulkan::Commands& commands, vulkan::Image& pyramid, MapLookup lookup,
+                       const vulkan::ElementBuffer& pairs, vulkan::Image& prefiltered, PrefilterKernel kernel,
+                       PyramidFilter filter) {
     const vulkan::ImageSettings& settings = pyramid.settings();
     commands.transition(pyramid, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL);
     commands.transition(prefiltered, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL);
@@ -75,15 +73,15 @@ void Prefilter::record(vulkan::Commands& commands, vulkan::Image& pyramid, const
                    prefiltered.layout(), 1, &finest);
     commands.transition(pyramid, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
 
-    const vulkan::ComputePipeline& used = pipeline(kernel, pairs.get() ? settings.width : 0);
+    const vulkan::ComputePipeline& used = pipeline(kernel, settings.width, lookup);
     for (uint32_t cube = 0; cube < settings.layers / 6 && settings.levels > 1; ++cube) {
         const Scratch& room = scratch({settings.width, kernel, filter});
         if (cube == 0) {
             set_ = vulkan::DescriptorSet(used);
             set_.bind(shared::BINDING_MAPS, pyramid.view_as(VK_IMAGE_VIEW_TYPE_CUBE_ARRAY), sampler_)
-                .bind_texel_buffer(shared::BINDING_MAP_PAIRS, pairs.get() ? pairs : no_pairs_.view)
                 .bind(shared::BINDING_PREFILTER_SAMPLES, room.samples)
                 .bind(shared::BINDING_PREFILTER_TEXELS, room.texels);
+            pairs.bind(set_, shared::BINDING_MAP_PAIRS, shared::BINDING_STORED_PAIRS);
         }
         std::vector<VkBufferImageCopy> copies;
         for (const Level& level : room.levels) {

@@ -2,10 +2,11 @@
 // under a Gaussian that is round on the sphere.
 #pragma once
 
-#include "burnish/render/texel_pairs.h"
+#include "burnish/plan/map_lookup.h"
 #include "burnish/sampling/pyramid_filter.h"
 #include "burnish/vulkan/commands.h"
 #include "burnish/vulkan/device.h"
+#include "burnish/vulkan/element_buffer.h"
 
 #include <map>
 #include <memory>
@@ -26,10 +27,11 @@ public:
     /// arrays of RGBA16F with full levels and of one size; `pyramid` has all of them written, `prefiltered`
     /// gets all of them. Both are in SHADER_READ_ONLY_OPTIMAL afterwards. This object must live, and record
     /// nothing else, until the commands are done.
-    /// `filter` made the pyramid. `pairs`: the pyramid packed, which is then read by the software lookup,
-    /// else null.
-    void record(vulkan::Commands& commands, vulkan::Image& pyramid, const vulkan::TexelView& pairs,
-                vulkan::Image& prefiltered, PrefilterKernel kernel, PyramidFilter filter);
+    /// `filter` made the pyramid, which is read by `lookup`; `pairs`: the pyramid packed, or any where the
+    /// device's sampler reads it.
+    void record(vulkan::Commands& commands, vulkan::Image& pyramid, MapLookup lookup,
+                const vulkan::ElementBuffer& pairs, vulkan::Image& prefiltered, PrefilterKernel kernel,
+                PyramidFilter filter);
 
 private:
     struct Level {
@@ -47,14 +49,12 @@ private:
     using Key = std::tuple<uint32_t, PrefilterKernel, PyramidFilter>; ///< face size first
 
     const Scratch& scratch(const Key& key);
-    /// `packed_size`: of the faces, where the software lookup reads them; 0: the device's sampler does.
-    const vulkan::ComputePipeline& pipeline(PrefilterKernel kernel, uint32_t packed_size);
+    const vulkan::ComputePipeline& pipeline(PrefilterKernel kernel, uint32_t face_size, MapLookup lookup);
 
     std::shared_ptr<const vulkan::Device> device_;
     vulkan::Shader shader_;
-    std::map<std::pair<PrefilterKernel, uint32_t>, vulkan::ComputePipeline> pipelines_;
+    std::map<std::tuple<PrefilterKernel, uint32_t, MapLookup>, vulkan::ComputePipeline> pipelines_;
     vulkan::Sampler sampler_;
-    PairBuffer no_pairs_; // for where nothing is packed: an unwritten descriptor is an error even if unread
     vulkan::DescriptorSet set_; // of the commands recorded last
     std::map<Key, Scratch> scratches_;
 };

@@ -17,6 +17,7 @@ namespace {
 constexpr uint64_t SCRATCH_PAIRS = (uint64_t{64} << 20) / 16; // cubes are done together up to this size
 constexpr uint32_t PAIR_BYTES = 16;
 constexpr uint32_t TEXEL_BYTES = 8;
+constexpr VkFormat PAIR_FORMAT = VK_FORMAT_R32G32B32A32_UINT;
 // Invocations beyond a level's edge load texels behind their face, though they store nothing: room behind the
 // last one.
 constexpr uint64_t SLACK_PAIRS = 64;
@@ -81,21 +82,32 @@ void require_cubes(const vulkan::Image& cubes, uint32_t first_cube, uint32_t cub
 
 Pyramid::Pyramid(std::shared_ptr<const vulkan::Device> device)
     : device_(std::move(device)), reduce_shader_(device_, "pyramid/reduce.comp", pyramid_reduce_comp_spv),
-      border_(device_, vulkan::Shader(device_, "pyramid/border.comp", pyramid_border_comp_spv)) {}
+      border_shader_(device_, "pyramid/border.comp", pyramid_border_comp_spv) {}
 
 // Long rows are read as streams; of small levels a large group would be mostly idle.
 Pyramid::Group Pyramid::best_group(uint32_t size) {
     return size >= 64 ? Group{32, 1} : Group{8, 2};
 }
 
-const vulkan::ComputePipeline& Pyramid::reduction(PyramidFilter filter, const Group& group) {
-    const auto key = std::pair(filter, group);
+const vulkan::ComputePipeline& Pyramid::border(vulkan::ElementAccess access) {
+    const auto found = borders_.find(access);
+    if (found != borders_.end()) return found->second;
+    const auto constants = vulkan::SpecializationConstants{}.set(shared::SPEC_PYRAMID_IS_STORED,
+                                                                 access == vulkan::ElementAccess::storage);
+    return borders_.emplace(access, vulkan::ComputePipeline(device_, border_shader_, constants))
+        .first->second;
+}
+
+const vulkan::ComputePipeline& Pyramid::reduction(PyramidFilter filter, const Group& group,
+                                                  vulkan::ElementAccess access) {
+    const auto key = std::tuple(filter, group, access);
     const auto found = reductions_.find(key);
     if (found != reductions_.end()) return found->second;
     const auto constants = vulkan::SpecializationConstants{}
                                .set(shared::SPEC_PYRAMID_TAPS, tap_count(filter))
                                .set(shared::SPEC_PYRAMID_LOCAL_X, group.x)
-                               .set(shared::SPEC_PYRAMID_LOCAL_Y, group.y);
+                               .set(shared::SPEC_PYRAMID_LOCAL_Y, group.y)
+                               .set(shared::SPEC_PYRAMID_IS_STORED, access == vulkan::ElementAccess::storage);
     return reductions_.emplace(key, vulkan::ComputePipeline(device_, reduce_shader_, constants))
         .first->second;
 }
@@ -106,42 +118,38 @@ const Pyramid::Scratch& Pyramid::scratch(uint32_t face_size, uint32_t cube_count
     if (found != scratches_.end()) return found->second;
 
     const uint64_t pairs = scratch_pairs(face_size, cube_count);
-    if (pairs > device_->limits().maxTexelBufferElements) {
-        throw VulkanError(message("face_size: expected cubes that fit into a texel buffer of ",
-                                  device_->limits().maxTexelBufferElements,
-                                  " elements (the device's limit), got ", face_size, ", which needs ",
-                                  pairs));
-    }
+    const vulkan::ElementAccess access =
+        vulkan::fitting_access(*device_, pairs, PAIR_FORMAT, message("pyramid of faces of ", face_size));
     Scratch scratch;
     uint64_t begin = 0;
     for (uint32_t size = face_size; size >= 1; size /= 2) {
         scratch.levels.push_back({size, static_cast<uint32_t>(begin)});
         begin += 6 * cube_count * face_pairs(size);
     }
-    scratch.buffer = vulkan::Buffer(device_, pairs * PAIR_BYTES, VK_BUFFER_USAGE_STORAGE_TEXEL_BUFFER_BIT);
-    scratch.view = vulkan::texel_view(scratch.buffer, VK_FORMAT_R32G32B32A32_UINT);
-    scratch.border_set = vulkan::DescriptorSet(border_);
-    scratch.border_set.bind_texel_buffer(shared::BINDING_PYRAMID_TEXELS, scratch.view);
+    scratch.pairs = vulkan::ElementBuffer(device_, pairs, PAIR_FORMAT, access);
+    scratch.border_set = vulkan::DescriptorSet(border(access));
     // The set fits the other filters' pipelines too: they have the same interface.
-    scratch.reduce_set = vulkan::DescriptorSet(reduction(filter, best_group(face_size / 2)));
-    scratch.reduce_set.bind_texel_buffer(shared::BINDING_PYRAMID_TEXELS, scratch.view);
+    scratch.reduce_set = vulkan::DescriptorSet(reduction(filter, best_group(face_size / 2), access));
+    for (vulkan::DescriptorSet* set : {&scratch.border_set, &scratch.reduce_set})
+        scratch.pairs.bind(*set, shared::BINDING_PYRAMID_TEXELS, shared::BINDING_PYRAMID_STORED_TEXELS);
     return scratches_.emplace(key, std::move(scratch)).first->second;
 }
 
 void Pyramid::record_levels(vulkan::Commands& commands, const Scratch& scratch, uint32_t cube_count,
                             PyramidFilter filter) {
+    const vulkan::ComputePipeline& border = this->border(scratch.pairs.access());
     for (size_t level = 1; level < scratch.levels.size(); ++level) {
         const Level source = scratch.levels[level - 1], target = scratch.levels[level];
         const shared::PyramidRecord push{
             source.begin, row_pairs(source.size), source.size, target.begin, row_pairs(target.size), 0, 0, 0};
         if (filter != PyramidFilter::box) {
-            commands.dispatch(border_, scratch.border_set, vulkan::push_bytes(push),
-                              groups(4 * source.size + 8, border_.local_size()[0]), 1, 6 * cube_count);
+            commands.dispatch(border, scratch.border_set, vulkan::push_bytes(push),
+                              groups(4 * source.size + 8, border.local_size()[0]), 1, 6 * cube_count);
             commands.barrier();
         }
         const Group group = best_group(target.size);
-        commands.dispatch(reduction(filter, group), scratch.reduce_set, vulkan::push_bytes(push),
-                          groups(target.size, shared::PYRAMID_BLOCK_X * group.x),
+        commands.dispatch(reduction(filter, group, scratch.pairs.access()), scratch.reduce_set,
+                          vulkan::push_bytes(push), groups(target.size, shared::PYRAMID_BLOCK_X * group.x),
                           groups(target.size, shared::PYRAMID_BLOCK_Y * group.y), 6 * cube_count);
         commands.barrier();
     }
@@ -163,14 +171,14 @@ bool Pyramid::stage(vulkan::Image& cubes, std::span<const std::vector<uint16_t>>
     const uint32_t size = cubes.settings().width;
     if (size == 1 || batch_size(size, cube_count) != cube_count) return false;
     const Scratch& room = scratch(size, cube_count, filter);
-    if (!room.buffer.is_mapped()) return false;
+    if (!room.pairs.buffer().is_mapped()) return false;
 
     const VkBufferImageCopy finest = level_copy(0, size, 0, 0, cube_count);
     const uint64_t row_bytes = uint64_t{size} * TEXEL_BYTES;
     for (uint32_t layer = 0; layer < 6 * cube_count; ++layer) {
         const auto* source =
             reinterpret_cast<const std::byte*>(texels[layer / 6].data()) + layer % 6 * size * row_bytes;
-        std::byte* target = room.buffer.mapped().data() + finest.bufferOffset +
+        std::byte* target = room.pairs.buffer().mapped().data() + finest.bufferOffset +
                             uint64_t{layer} * face_pairs(size) * PAIR_BYTES;
         for (uint32_t row = 0; row < size; ++row)
             std::memcpy(target + uint64_t{row} * row_pairs(size) * PAIR_BYTES, source + row * row_bytes,
@@ -178,7 +186,7 @@ bool Pyramid::stage(vulkan::Image& cubes, std::span<const std::vector<uint16_t>>
     }
     vulkan::Commands commands(device_);
     commands.transition(cubes, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL);
-    vkCmdCopyBufferToImage(commands.handle(), room.buffer.handle(), cubes.handle(), cubes.layout(), 1,
+    vkCmdCopyBufferToImage(commands.handle(), room.pairs.buffer().handle(), cubes.handle(), cubes.layout(), 1,
                            &finest);
     commands.submit();
     return true;
@@ -204,8 +212,8 @@ void Pyramid::record(vulkan::Commands& commands, vulkan::Image& cubes, uint32_t 
         if (finest == Finest::in_image) {
             move_to(VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL);
             const VkBufferImageCopy copy = level_copy(0, face_size, 0, first_cube + done, batch);
-            vkCmdCopyImageToBuffer(commands.handle(), cubes.handle(), cubes.layout(), room.buffer.handle(), 1,
-                                   &copy);
+            vkCmdCopyImageToBuffer(commands.handle(), cubes.handle(), cubes.layout(),
+                                   room.pairs.buffer().handle(), 1, &copy);
             commands.barrier();
         }
         record_levels(commands, room, batch, filter);
@@ -216,8 +224,8 @@ void Pyramid::record(vulkan::Commands& commands, vulkan::Image& cubes, uint32_t 
             copies.push_back(level_copy(level, room.levels[level].size, room.levels[level].begin,
                                         first_cube + done, batch));
         }
-        vkCmdCopyBufferToImage(commands.handle(), room.buffer.handle(), cubes.handle(), cubes.layout(),
-                               static_cast<uint32_t>(copies.size()), copies.data());
+        vkCmdCopyBufferToImage(commands.handle(), room.pairs.buffer().handle(), cubes.handle(),
+                               cubes.layout(), static_cast<uint32_t>(copies.size()), copies.data());
     }
     move_to(VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
 }

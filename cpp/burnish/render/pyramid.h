@@ -4,11 +4,13 @@
 #include "burnish/sampling/pyramid_filter.h"
 #include "burnish/vulkan/commands.h"
 #include "burnish/vulkan/device.h"
+#include "burnish/vulkan/element_buffer.h"
 
 #include <map>
 #include <memory>
 #include <span>
 #include <string>
+#include <tuple>
 #include <vector>
 
 namespace burnish {
@@ -36,8 +38,8 @@ public:
     /// cube array of RGBA16F with full levels and a level 0 that is not undefined; layers 6 first_cube and on
     /// are done. Afterwards it is in SHADER_READ_ONLY_OPTIMAL, or still in GENERAL if it was, and all its
     /// levels are visible to later commands. The pyramid must live until the commands are done. Throws
-    /// std::invalid_argument naming what does not fit, and VulkanError where the device's texel buffers are
-    /// too small for one such cube.
+    /// std::invalid_argument naming what does not fit, and VulkanError where the device's buffers are too
+    /// small for one such cube.
     void record(vulkan::Commands& commands, vulkan::Image& cubes, uint32_t first_cube, uint32_t cube_count,
                 PyramidFilter filter, Finest finest = Finest::in_image);
 
@@ -63,12 +65,13 @@ private:
     /// Room for all levels of some cubes.
     struct Scratch {
         std::vector<Level> levels;
-        vulkan::Buffer buffer;
-        vulkan::TexelView view;
+        vulkan::ElementBuffer pairs;
         vulkan::DescriptorSet border_set, reduce_set;
     };
 
-    const vulkan::ComputePipeline& reduction(PyramidFilter filter, const Group& group);
+    const vulkan::ComputePipeline& border(vulkan::ElementAccess access);
+    const vulkan::ComputePipeline& reduction(PyramidFilter filter, const Group& group,
+                                             vulkan::ElementAccess access);
     /// Cubes that are done at once.
     uint32_t batch_size(uint32_t face_size, uint32_t cube_count) const;
     const Scratch& scratch(uint32_t face_size, uint32_t cube_count, PyramidFilter filter);
@@ -76,9 +79,9 @@ private:
                        PyramidFilter filter);
 
     std::shared_ptr<const vulkan::Device> device_;
-    vulkan::Shader reduce_shader_;
-    vulkan::ComputePipeline border_;
-    std::map<std::pair<PyramidFilter, Group>, vulkan::ComputePipeline> reductions_;
+    vulkan::Shader reduce_shader_, border_shader_;
+    std::map<vulkan::ElementAccess, vulkan::ComputePipeline> borders_;
+    std::map<std::tuple<PyramidFilter, Group, vulkan::ElementAccess>, vulkan::ComputePipeline> reductions_;
     std::map<std::pair<uint32_t, uint32_t>, Scratch> scratches_; // by face size and cubes
 };
 

@@ -1,11 +1,10 @@
 #include "burnish/render/renderer.h"
 
 #include <algorithm>
-#include <array>
-#include <chrono>
 #include <cmath>
 
 #include "burnish/error.h"
+#include "burnish/render/stopwatch.h"
 #include "burnish/render/view.h"
 #include "burnish/vulkan/device.h"
 #include "burnish/vulkan/transfer.h"
@@ -14,56 +13,17 @@
 namespace burnish::render {
 namespace {
 
-class Stopwatch {
-public:
-    double milliseconds() const {
-        return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start_).count();
-    }
-
-private:
-    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
-
-template <typename T>
-std::vector<T> read_buffer(const vulkan::Buffer& buffer, size_t count) {
-    std::vector<T> result(count);
-    vulkan::read_back(buffer, std::as_writable_bytes(std::span(result)));
-    return result;
-}
-
-/// In double: squares of the longest and shortest float32 vectors fit. Zero where there is no direction.
-glm::vec3 unit_or_zero(const glm::vec3& vector) {
-    const glm::dvec3 wide(vector);
-    const double length = glm::length(wide);
-    return length > 0.0 ? glm::vec3(wide / length) : glm::vec3(0.0f);
-}
-
 /// Scenes that take turns stay on the device beside the one that is drawn.
 constexpr size_t MOST_OTHER_SCENES = 3;
 constexpr uint64_t MOST_OTHER_SCENE_BYTES = 256 << 20;
-
-void add_stopped(Report& report, const vulkan::Buffer& counters) {
-    static constexpr std::array<const char*, shared::GUARD_COUNT> passes = {"shade", "background",
-                                                                            "reference"};
-    const shared::Counters read = read_buffer<shared::Counters>(counters, 1)[0];
-    for (uint32_t k = 0; k < shared::GUARD_COUNT; ++k) {
-        if (read.stopped[k] == 0) continue;
-        const uint32_t first = ~read.first[k];
-        report.stopped.push_back({passes[k], read.stopped[k], first});
-        const std::string place =
-            report.width ? message("row ", first / report.width, ", column ", first % report.width)
-                         : message("point ", first);
-        report.problems.push_back(message("pass ", passes[k], ": ", read.stopped[k],
-                                          " values were not finite and became black, the first at ", place));
-    }
-}
 
 } // namespace
 
 Renderer::Renderer(std::shared_ptr<vulkan::Device> device, std::optional<MapLookup> lookup)
     : device_(std::move(device)),
-      lookup_(choose_lookup(device_->info().is_software, lookup, device_->limits().maxTexelBufferElements)),
-      pipelines_(device_), pyramid_(device_), placeholders_(device_),
+      lookup_(choose_lookup(device_->info().is_software, lookup, device_->limits().maxTexelBufferElements,
+                            device_->limits().maxStorageBufferRange / sizeof(glm::uvec4))),
+      pipelines_(device_), map_tools_(device_), placeholders_(device_),
       targets_(std::make_shared<TargetPool>(device_)) {}
 
 std::unique_lock<std::mutex> Renderer::enter() {
@@ -76,9 +36,7 @@ void Renderer::forget() {
     maps_.clear();
     alias_environments_.clear();
     alias_ = {};
-    pyramid_.free_scratches();
-    prefilter_.reset();
-    texel_pairs_.reset();
+    map_tools_.free();
     targets_->clear();
     tables_.forget_buffers();
 }
@@ -123,36 +81,6 @@ GpuScene& Renderer::prepare_scene(const Scene& scene) {
     return *scenes_.back().scene;
 }
 
-Report Renderer::start_report(const Scene& scene, const Plan& plan, const ShadeTables& tables) const {
-    Report report;
-    report.device_name = device_->info().name;
-    report.device_driver = device_->info().driver;
-    report.is_software = device_->info().is_software;
-    report.spp = plan.settings.spp;
-    report.filter = pyramid_filter_name(plan.settings.filter);
-    report.sampler = describe(plan.settings.sampler);
-    report.effects = plan.effects;
-    report.warnings = plan.warnings;
-    for (size_t k = 0; k < plan.classes.size(); ++k) {
-        const ShadeClass& one = plan.classes[k];
-        report.classes.push_back(
-            {effect_names(one.traits), table_name(one.traits.table), tables.samples_used[k], one.reason});
-    }
-    report.warnings.insert(report.warnings.end(), scene.warnings.begin(), scene.warnings.end());
-    report.ignored_extensions = scene.ignored_extensions;
-    for (size_t k = 0; k < plan.whole_environments.size(); ++k) {
-        const auto& environment = plan.whole_environments[k];
-        const auto begin = plan.whole_environments.begin();
-        if (std::find(begin, begin + k, environment) != begin + k) continue; // with and without its suns
-        const std::string sentence = environment->texel_report().sentence();
-        if (!sentence.empty())
-            report.warnings.push_back("environment " + environment->name + ": " + sentence);
-        for (const std::string& note : environment->notes)
-            report.warnings.push_back("environment " + environment->name + ": " + note);
-    }
-    return report;
-}
-
 Frame Renderer::render(const Scene& scene, const Camera& camera, const RenderSettings& settings) {
     const auto lock = enter();
     return within_memory(message("a frame of ", settings.height, " x ", settings.width, " pixels"),
@@ -192,7 +120,7 @@ Frame Renderer::draw(const Scene& scene, const Camera& camera, const RenderSetti
     const uint32_t spp = plan.settings.spp;
     const float display_scale = std::exp2(plan.settings.display_exposure.value_or(0.0f));
     const bool is_fused = frame.has_display && spp == 1;
-    const ShadeInputs inputs{&targets,          nullptr,           0,
+    const ShadeInputs inputs{&targets,          nullptr,           uint32_t(pixels),
                              &targets.radiance, &targets.counters, is_fused ? &targets.display : nullptr,
                              display_scale};
     const SurfacePass surface(pipelines_, gpu_scene, scene, plan, targets);
@@ -224,20 +152,25 @@ Frame Renderer::draw(const Scene& scene, const Camera& camera, const RenderSetti
     frame.report.compile_ms = pipelines_.take_compile_ms();
     frame.report.prepare_ms = wall.milliseconds() - frame.report.compile_ms;
 
+    const shared::Counters none = ShadePass::no_counts(uint32_t(pixels));
+    vulkan::upload(targets.counters, std::span(&none, 1));
     for (uint32_t picture = 0; picture < spp; ++picture) {
         shared::ViewRecord view =
             make_view(camera, settings.width, settings.height, filter_offset(picture, spp));
         view.background_map = 0;
+        keep_clip_in_range(view, surface.clip_reach(view.clip_from_world));
         vulkan::upload(targets.view, std::span<const shared::ViewRecord>(&view, 1));
         vulkan::Commands commands(device_);
-        if (picture == 0) commands.fill_buffer(targets.counters, 0);
-        if (!plan.has_background) commands.fill_buffer(is_fused ? targets.display : targets.radiance, 0);
+        // Of a reference the guard sees what earlier frames left where objects are.
+        if (!plan.has_background || is_reference)
+            commands.fill_buffer(is_fused ? targets.display : targets.radiance, 0);
         commands.begin_pass("surface");
         surface.record(commands, targets);
         commands.end_pass();
         shade.record_tiles(commands);
         if (!is_reference) shade.record_shade(commands, {});
         shade.record_background(commands);
+        shade.record_guard(commands);
         if (spp > 1 && !is_reference) record_accumulate(commands, picture);
         commands.submit();
         add_pass_times(times, commands.pass_times());
@@ -254,9 +187,10 @@ Frame Renderer::draw(const Scene& scene, const Camera& camera, const RenderSetti
     }
     const Stopwatch read_watch;
     if (!is_shared && frame.has_display)
-        frame.display_copy = read_buffer<uint32_t>(targets.display, pixels);
+        frame.display_copy = vulkan::read_elements<uint32_t>(targets.display, pixels);
     else if (!is_shared)
-        frame.radiance_copy = read_buffer<glm::vec4>(spp > 1 ? targets.sum : targets.radiance, pixels);
+        frame.radiance_copy =
+            vulkan::read_elements<glm::vec4>(spp > 1 ? targets.sum : targets.radiance, pixels);
     add_pass_times(times, {{"read back", read_watch.milliseconds()}});
     times.insert(times.end(), frame.report.passes.begin(), frame.report.passes.end());
     frame.report.passes = std::move(times);
@@ -264,77 +198,6 @@ Frame Renderer::draw(const Scene& scene, const Camera& camera, const RenderSetti
     if (!is_shared) frame.targets.reset();
     frame.report.wall_ms = wall.milliseconds();
     return frame;
-}
-
-std::vector<glm::vec3> Renderer::shade(const std::shared_ptr<const Environment>& environment,
-                                       const Material& material, const ShadePoints& points,
-                                       const PlanSettings& settings, Report* report,
-                                       const Progress& progress) {
-    const auto lock = enter();
-    return within_memory(message(points.normals.size(), " points to shade"), [&] {
-        return shade_points(environment, material, points, settings, report, progress);
-    });
-}
-
-std::vector<glm::vec3> Renderer::shade_points(const std::shared_ptr<const Environment>& environment,
-                                              const Material& material, const ShadePoints& points,
-                                              const PlanSettings& settings, Report* report,
-                                              const Progress& progress) {
-    const Stopwatch wall;
-    const size_t count = points.normals.size();
-    if (points.tangents.size() != count || points.views.size() != count)
-        throw std::invalid_argument(message("tangents, views: expected as many as normals, ", count, ", got ",
-                                            points.tangents.size(), " and ", points.views.size()));
-    if (count == 0) return {};
-    if (count > 0xffffffffu / sizeof(shared::SurfacePoint))
-        throw std::invalid_argument(message("normals: expected at most ",
-                                            0xffffffffu / sizeof(shared::SurfacePoint), " points, got ",
-                                            count));
-    pipelines_.take_compile_ms();
-    Scene scene;
-    scene.environment = environment;
-    scene.materials = {material};
-    scene.materials[0].source.reset(); // points carry no texture coordinates: its factors hold everywhere
-    scene.objects.emplace_back();
-    const Plan plan = make_plan(scene, settings);
-    std::vector<vulkan::PassTime> times;
-    const std::vector<std::shared_ptr<EnvironmentMaps>> maps = prepare_maps(plan, times);
-    const ShadeTables tables = make_shade_tables(device_, scene, plan, tables_);
-
-    std::vector<shared::SurfacePoint> records(count);
-    for (size_t k = 0; k < count; ++k)
-        records[k] = {glm::vec4(unit_or_zero(points.normals[k]), 0.0f),
-                      glm::vec4(unit_or_zero(points.tangents[k]), 1.0f),
-                      glm::vec4(unit_or_zero(points.views[k]), 0.0f)};
-    const VkBufferUsageFlags storage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT;
-    const vulkan::Buffer point_buffer =
-        vulkan::make_buffer(device_, std::as_bytes(std::span(records)), storage);
-    const vulkan::Buffer radiance(device_, count * sizeof(glm::vec4), storage);
-    const shared::Counters zero{};
-    const vulkan::Buffer counters = vulkan::make_buffer(device_, std::as_bytes(std::span(&zero, 1)), storage);
-    std::optional<ReferenceBuffers> reference;
-    if (std::holds_alternative<Reference>(plan.settings.sampler))
-        reference = make_reference_buffers(scene, plan, count);
-    const ShadeInputs inputs{nullptr, &point_buffer, uint32_t(count), &radiance, &counters};
-    const ShadePass shade(pipelines_, plan, tables, maps, inputs, placeholders_,
-                          reference ? &*reference : nullptr);
-    Report local = start_report(scene, plan, tables);
-    local.compile_ms = pipelines_.take_compile_ms();
-    if (reference) {
-        run_reference(plan, shade, *reference, count, progress, local);
-    } else {
-        vulkan::Commands commands(device_);
-        shade.record_shade(commands, {});
-        commands.submit();
-        add_pass_times(times, commands.pass_times());
-    }
-    const std::vector<glm::vec4> result = read_buffer<glm::vec4>(radiance, count);
-    add_stopped(local, counters);
-    times.insert(times.end(), local.passes.begin(), local.passes.end());
-    local.passes = std::move(times);
-    local.wall_ms = wall.milliseconds();
-    if (report) *report = std::move(local);
-    return {result.begin(), result.end()};
 }
 
 } // namespace burnish::render

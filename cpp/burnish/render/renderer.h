@@ -81,8 +81,7 @@ public:
 private:
     struct CachedMaps {
         std::vector<std::weak_ptr<const Environment>> environments;
-        std::optional<PyramidFilter> filter;   // none: level 0 alone
-        std::optional<PrefilterKernel> kernel; // none: a pyramid
+        MapSettings settings;
         std::shared_ptr<EnvironmentMaps> maps;
     };
 
@@ -118,8 +117,6 @@ private:
                                         const Progress& progress);
     std::vector<std::shared_ptr<EnvironmentMaps>> prepare_maps(const Plan& plan,
                                                                std::vector<vulkan::PassTime>& times);
-    Prefilter& prefilter();
-    TexelPairs& texel_pairs();
     Plan make_plan(const Scene& scene, const PlanSettings& settings);
     /// Makes room for one more.
     void forget_old_scenes();
@@ -130,14 +127,14 @@ private:
     void run_reference(const Plan& plan, const ShadePass& pass, const ReferenceBuffers& buffers,
                        uint64_t points, const Progress& progress, Report& report);
     Report start_report(const Scene& scene, const Plan& plan, const ShadeTables& tables) const;
+    /// What the guards counted; `report` knows whether points or pixels.
+    static void add_stopped(Report& report, const vulkan::Buffer& counters);
 
     std::shared_ptr<vulkan::Device> device_;
     LookupChoice lookup_;
     std::mutex mutex_;
     Pipelines pipelines_;
-    Pyramid pyramid_;
-    std::unique_ptr<Prefilter> prefilter_;    // once a frame calls for it
-    std::unique_ptr<TexelPairs> texel_pairs_; // likewise
+    MapTools map_tools_;
     Placeholders placeholders_;
     TableCache tables_;
     SunCache suns_;

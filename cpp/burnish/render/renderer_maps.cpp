@@ -25,19 +25,19 @@ std::vector<std::shared_ptr<EnvironmentMaps>> Renderer::prepare_maps(const Plan&
         return std::any_of(plan.passes.begin(), plan.passes.end(),
                            [&](const PassLine& line) { return line.name == name; });
     };
-    const std::optional<PyramidFilter> filter =
-        has_pass("pyramid") ? std::optional(plan.settings.filter) : std::nullopt;
-    std::optional<PrefilterKernel> kernel;
+    MapSettings wanted;
+    if (has_pass("pyramid")) wanted.filter = plan.settings.filter;
     if (has_pass("prefilter"))
-        kernel = std::holds_alternative<Matched>(plan.settings.sampler) ? PrefilterKernel::spherical
-                                                                        : PrefilterKernel::lobe;
+        wanted.kernel = std::holds_alternative<Matched>(plan.settings.sampler) ? PrefilterKernel::spherical
+                                                                               : PrefilterKernel::lobe;
     std::vector<std::shared_ptr<EnvironmentMaps>> result;
     for (const MapSet& set : plan.map_sets) {
         std::vector<std::shared_ptr<const Environment>> environments;
         for (const uint32_t k : set.environments)
             environments.push_back(plan.environments[k]);
+        wanted.lookup = set.lookup;
         const auto found = std::find_if(maps_.begin(), maps_.end(), [&](const CachedMaps& cached) {
-            return (!filter || (cached.filter == filter && cached.kernel == kernel)) &&
+            return (!wanted.filter || cached.settings == wanted) &&
                    std::equal(cached.environments.begin(), cached.environments.end(), environments.begin(),
                               environments.end(),
                               [](const auto& one, const auto& other) { return one.lock() == other; });
@@ -47,26 +47,13 @@ std::vector<std::shared_ptr<EnvironmentMaps>> Renderer::prepare_maps(const Plan&
             continue;
         }
         const auto maps = needing_memory_for(describe_maps(environments.size(), *environments.front()), [&] {
-            return std::make_shared<EnvironmentMaps>(
-                device_, pyramid_, environments, filter, kernel ? &prefilter() : nullptr,
-                kernel.value_or(PrefilterKernel::lobe),
-                set.lookup == MapLookup::software ? &texel_pairs() : nullptr);
+            return std::make_shared<EnvironmentMaps>(map_tools_, environments, wanted);
         });
         add_pass_times(times, maps->pass_times());
-        maps_.push_back({{environments.begin(), environments.end()}, filter, kernel, maps});
+        maps_.push_back({{environments.begin(), environments.end()}, wanted, maps});
         result.push_back(maps);
     }
     return result;
-}
-
-Prefilter& Renderer::prefilter() {
-    if (!prefilter_) prefilter_ = std::make_unique<Prefilter>(device_);
-    return *prefilter_;
-}
-
-TexelPairs& Renderer::texel_pairs() {
-    if (!texel_pairs_) texel_pairs_ = std::make_unique<TexelPairs>(device_);
-    return *texel_pairs_;
 }
 
 std::vector<std::vector<float>> Renderer::pyramid(const std::shared_ptr<const Environment>& environment,
@@ -74,7 +61,7 @@ std::vector<std::vector<float>> Renderer::pyramid(const std::shared_ptr<const En
                                                   std::vector<vulkan::PassTime>* times) {
     const auto lock = enter();
     return within_memory(describe_maps(1, *environment), [&] {
-        EnvironmentMaps maps(device_, pyramid_, std::span(&environment, 1), filter);
+        EnvironmentMaps maps(map_tools_, std::span(&environment, 1), {.filter = filter, .kernel = {}});
         if (times) *times = maps.pass_times();
         return maps.read_levels(0);
     });
@@ -86,9 +73,8 @@ std::vector<std::vector<float>> Renderer::prefiltered(PrefilterKernel kernel,
                                                       std::vector<vulkan::PassTime>* times) {
     const auto lock = enter();
     return within_memory(describe_maps(1, *environment), [&] {
-        const bool is_packed = lookup_.of(environment->face_size(), 1) == MapLookup::software;
-        EnvironmentMaps maps(device_, pyramid_, std::span(&environment, 1), filter, &prefilter(), kernel,
-                             is_packed ? &texel_pairs() : nullptr);
+        const MapLookup lookup = lookup_.of(environment->face_size(), 1);
+        EnvironmentMaps maps(map_tools_, std::span(&environment, 1), {filter, kernel, lookup});
         if (times) *times = maps.pass_times();
         return maps.read_levels(0);
     });

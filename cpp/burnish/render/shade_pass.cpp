@@ -21,6 +21,18 @@ uint32_t form_of(AlphaForm form) {
     return shared::ALPHA_GENERAL;
 }
 
+uint32_t code_of(MapLookup lookup) {
+    switch (lookup) {
+    case MapLookup::sampler:
+        return shared::LOOKUP_SAMPLER;
+    case MapLookup::software:
+        return shared::LOOKUP_TEXELS;
+    case MapLookup::software_stored:
+        return shared::LOOKUP_STORAGE;
+    }
+    return shared::LOOKUP_SAMPLER;
+}
+
 uint32_t table_of(TableForm form, const Sampler& sampler) {
     switch (form) {
     case TableForm::constant:
@@ -109,22 +121,16 @@ void add_pattern_constants(vulkan::SpecializationConstants& constants, const Sha
             constants.set(shared::SPEC_SAMPLES + 4 * k + c, table.entries[k][int(c)]);
 }
 
-vulkan::Image one_texel(const vulkan::DevicePointer& device, VkFormat format) {
-    vulkan::ImageSettings settings;
-    settings.format = format;
-    settings.usage = VK_IMAGE_USAGE_STORAGE_BIT;
-    vulkan::Image image(device, settings);
-    vulkan::Commands commands(device);
-    commands.transition(image, VK_IMAGE_LAYOUT_GENERAL);
-    commands.submit();
-    return image;
+uint32_t group_count(uint32_t points) {
+    constexpr uint32_t group = shared::TILE_SIZE * shared::TILE_SIZE;
+    return (points + group - 1) / group;
 }
 
 } // namespace
 
 void add_lookup_constants(vulkan::SpecializationConstants& constants, const MapSet& set) {
-    const bool is_software = set.lookup == MapLookup::software;
-    constants.set(shared::SPEC_LOOKUP, is_software ? shared::LOOKUP_SOFTWARE : shared::LOOKUP_SAMPLER)
+    const bool is_software = set.lookup != MapLookup::sampler;
+    constants.set(shared::SPEC_LOOKUP, code_of(set.lookup))
         .set(shared::SPEC_LAST_LEVEL, is_software ? std::countr_zero(set.face_size) : 0);
 }
 
@@ -133,12 +139,6 @@ GroupRows fold_groups(uint64_t groups) {
         std::max<uint64_t>((groups + shared::GROUPS_PER_ROW - 1) / shared::GROUPS_PER_ROW, 1);
     return {uint32_t((groups + count - 1) / count), uint32_t(count)};
 }
-
-Placeholders::Placeholders(const vulkan::DevicePointer& device)
-    : buffer(device, 256, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_STORAGE_TEXEL_BUFFER_BIT),
-      rows(vulkan::texel_view(buffer, VK_FORMAT_R32G32B32A32_UINT)),
-      surface(one_texel(device, VK_FORMAT_R32G32_UINT)),
-      varying(one_texel(device, VK_FORMAT_R16G16B16A16_SFLOAT)) {}
 
 ShadePass::ShadePass(Pipelines& pipelines, const Plan& plan, const ShadeTables& tables,
                      const std::vector<std::shared_ptr<EnvironmentMaps>>& maps, const ShadeInputs& inputs,
@@ -149,17 +149,21 @@ ShadePass::ShadePass(Pipelines& pipelines, const Plan& plan, const ShadeTables& 
         const ShadeTraits& traits = plan.classes[k].traits;
         vulkan::SpecializationConstants constants = common_constants(traits, k, is_points);
         constants.set(shared::SPEC_IS_DISPLAY, inputs.display != nullptr);
-        if (reference)
+        if (reference) {
             constants.set(shared::SPEC_IS_QUADRATURE, reference->is_quadrature);
-        else
+        } else {
             add_pattern_constants(constants, traits, plan.settings, tables.class_tables[k],
                                   tables.class_counts[k]);
+            constants.set(shared::SPEC_SAMPLE_TABLE_IS_STORED,
+                          tables.samples->elements.access() == vulkan::ElementAccess::storage);
+        }
         add_lookup_constants(constants, plan.map_sets[traits.map_set]);
         const std::string shader = reference ? "shade/reference.comp" : shader_of(traits.table);
         classes_.push_back(
             make_stage(pipelines, shader, constants, k, maps[traits.map_set].get(), reference));
         classes_.back().name = message(reference ? "reference " : "shade ", k);
     }
+    guard_.push_back(make_stage(pipelines, "shade/guard.comp", {}, 0, nullptr, nullptr));
     if (is_points) return;
 
     const uint32_t background_class = uint32_t(plan.classes.size());
@@ -207,9 +211,12 @@ ShadePass::Stage ShadePass::make_stage(Pipelines& pipelines, const std::string& 
     bind_texels(shared::BINDING_MATERIALS, tables_.material_rows);
     bind_texels(shared::BINDING_LOBES, tables_.lobe_rows);
     bind_texels(shared::BINDING_MAP_RECORDS, tables_.map_rows);
-    bind_texels(shared::BINDING_SAMPLE_TABLE, tables_.samples->texels);
+    if (stage.set.has_binding(shared::BINDING_SAMPLE_TABLE))
+        tables_.samples->elements.bind(stage.set, shared::BINDING_SAMPLE_TABLE,
+                                       shared::BINDING_STORED_SAMPLE_TABLE);
     bind_texels(shared::BINDING_ALBEDO_TABLE, tables_.albedo_texels);
-    bind_texels(shared::BINDING_MAP_PAIRS, maps && maps->pairs().get() ? maps->pairs() : unused_.rows);
+    if (stage.set.has_binding(shared::BINDING_MAP_PAIRS))
+        maps->pairs().bind(stage.set, shared::BINDING_MAP_PAIRS, shared::BINDING_STORED_PAIRS);
     bind(shared::BINDING_POINTS, inputs_.points ? *inputs_.points : unused_.buffer);
     bind(shared::BINDING_TILES, targets ? targets->tiles : unused_.buffer);
     bind(shared::BINDING_TILE_COUNTS, targets ? targets->tile_counts : unused_.buffer);
@@ -238,9 +245,7 @@ void ShadePass::dispatch(vulkan::Commands& commands, const Stage& stage, shared:
         return;
     }
     push.point_count = inputs_.point_count;
-    const GroupRows rows =
-        fold_groups((uint64_t(inputs_.point_count) + shared::TILE_SIZE * shared::TILE_SIZE - 1) /
-                    (shared::TILE_SIZE * shared::TILE_SIZE));
+    const GroupRows rows = fold_groups(group_count(inputs_.point_count));
     commands.dispatch(*stage.pipeline, stage.set, vulkan::push_bytes(push), rows.length, rows.count);
 }
 
@@ -277,6 +282,24 @@ void ShadePass::record_background(vulkan::Commands& commands) const {
         dispatch(commands, stage, {});
         commands.end_pass();
     }
+}
+
+void ShadePass::record_guard(vulkan::Commands& commands) const {
+    const Stage& guard = guard_.front();
+    shared::ShadeRecord push{};
+    push.point_count = inputs_.point_count;
+    commands.begin_pass("guard");
+    commands.dispatch_indirect(*guard.pipeline, guard.set, vulkan::push_bytes(push), *inputs_.counters,
+                               offsetof(shared::Counters, guard));
+    commands.end_pass();
+}
+
+shared::Counters ShadePass::no_counts(uint32_t point_count) {
+    const uint32_t groups = group_count(point_count);
+    shared::Counters counters{};
+    counters.guard[1] = std::min(groups, shared::GROUPS_PER_ROW);
+    counters.guard[2] = (groups + shared::GROUPS_PER_ROW - 1) / shared::GROUPS_PER_ROW;
+    return counters;
 }
 
 } // namespace burnish::render

@@ -17,8 +17,8 @@ namespace burnish::render {
 /// What shading reads and writes besides the tables. Without `targets`, points.
 struct ShadeInputs {
     FrameTargets* targets = nullptr;
-    const vulkan::Buffer* points = nullptr; ///< SurfacePoint each
-    uint32_t point_count = 0;
+    const vulkan::Buffer* points = nullptr;   ///< SurfacePoint each
+    uint32_t point_count = 0;                 ///< or of pixels
     const vulkan::Buffer* radiance = nullptr; ///< vec4 a pixel or point
     const vulkan::Buffer* counters = nullptr;
     const vulkan::Buffer* display = nullptr; ///< a byte a channel and pixel: then nothing goes to `radiance`
@@ -60,6 +60,10 @@ public:
     /// One pass for each class, and one for the background. `push` is completed with what the inputs say.
     void record_shade(vulkan::Commands& commands, shared::ShadeRecord push) const;
     void record_background(vulkan::Commands& commands) const;
+    /// Blackens and counts what shading and the background left that is not finite.
+    void record_guard(vulkan::Commands& commands) const;
+    /// What the counters must be before anything runs.
+    static shared::Counters no_counts(uint32_t point_count);
 
 private:
     struct Stage {
@@ -81,6 +85,7 @@ private:
     std::vector<Stage> classes_;
     std::vector<Stage> background_;
     std::vector<Stage> tile_stages_;
+    std::vector<Stage> guard_;
 };
 
 /// Which lookup the kernel compiles, and for which size of faces.

@@ -134,7 +134,8 @@ FrameTargets::FrameTargets(const vulkan::DevicePointer& device, uint32_t width_p
     tiles = vulkan::Buffer(device, VkDeviceSize(class_count) * tile_capacity * sizeof(uint32_t), storage);
     tile_counts = vulkan::Buffer(device, class_count * sizeof(glm::uvec4),
                                  storage | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT);
-    counters = vulkan::Buffer(device, sizeof(shared::Counters), storage);
+    counters =
+        vulkan::Buffer(device, sizeof(shared::Counters), storage | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT);
     view = vulkan::Buffer(device, sizeof(shared::ViewRecord),
                           storage | VK_BUFFER_USAGE_STORAGE_TEXEL_BUFFER_BIT);
     view_rows = vulkan::texel_view(view, VK_FORMAT_R32G32B32A32_UINT);
@@ -228,6 +229,18 @@ const vulkan::DescriptorSet& SurfacePass::set_for(const vulkan::GraphicsPipeline
                  VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, slot.kind);
     }
     return set;
+}
+
+double SurfacePass::clip_reach(const glm::mat4& clip_from_world) const {
+    double largest = 0.0;
+    for (const Draw& draw : draws_) {
+        const glm::dmat4 clip = glm::dmat4(clip_from_world) * glm::dmat4(draw.record.world_from_object);
+        const glm::dvec4 reach = glm::abs(clip[0]) * double(draw.range.reach.x) +
+                                 glm::abs(clip[1]) * double(draw.range.reach.y) +
+                                 glm::abs(clip[2]) * double(draw.range.reach.z) + glm::abs(clip[3]);
+        largest = std::max({largest, reach.x, reach.y, reach.z, reach.w});
+    }
+    return largest;
 }
 
 void SurfacePass::record(vulkan::Commands& commands, FrameTargets& targets) const {

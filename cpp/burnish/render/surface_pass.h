@@ -41,6 +41,9 @@ public:
                 const FrameTargets& targets);
     void record(vulkan::Commands& commands, FrameTargets& targets) const;
 
+    /// What no coordinate of a corner in clip space exceeds, as seen by `clip_from_world`.
+    double clip_reach(const glm::mat4& clip_from_world) const;
+
 private:
     struct Draw {
         const vulkan::GraphicsPipeline* pipeline;

@@ -11,6 +11,7 @@
 namespace burnish::render {
 namespace {
 
+constexpr VkFormat SAMPLE_FORMAT = VK_FORMAT_R32G32B32A32_SFLOAT;
 constexpr uint64_t MOST_KEPT_VIEW_ENTRIES = 32'000'000; ///< 512 MB
 
 } // namespace
@@ -52,9 +53,10 @@ std::shared_ptr<const SampleBuffer> TableCache::sample_buffer(const vulkan::Devi
     auto made = std::make_shared<SampleBuffer>();
     made->tables = std::move(tables);
     if (entries.empty()) entries.emplace_back(0.0f); // a binding must have something behind it
-    made->buffer = vulkan::make_buffer(device, std::as_bytes(std::span(entries)),
-                                       VK_BUFFER_USAGE_STORAGE_TEXEL_BUFFER_BIT);
-    made->texels = vulkan::texel_view(made->buffer, VK_FORMAT_R32G32B32A32_SFLOAT);
+    made->elements = vulkan::ElementBuffer(
+        device, entries.size(), SAMPLE_FORMAT,
+        vulkan::fitting_access(*device, entries.size(), SAMPLE_FORMAT, "sample tables"));
+    vulkan::upload(made->elements.buffer(), std::span<const glm::vec4>(entries));
     return samples_ = std::move(made);
 }
 

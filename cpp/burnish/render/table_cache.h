@@ -9,7 +9,7 @@
 #include "burnish/sampling/albedo_table.h"
 #include "burnish/sampling/matched_view_table.h"
 #include "burnish/scene/environment.h"
-#include "burnish/vulkan/buffer.h"
+#include "burnish/vulkan/element_buffer.h"
 
 namespace burnish::render {
 
@@ -20,8 +20,7 @@ using SampleEntries = std::shared_ptr<const std::vector<glm::vec4>>;
 /// Sample tables as kernels read them.
 struct SampleBuffer {
     std::vector<SampleEntries> tables;
-    vulkan::Buffer buffer;
-    vulkan::TexelView texels;
+    vulkan::ElementBuffer elements;
 };
 
 class TableCache {

@@ -9,24 +9,30 @@ namespace burnish {
 
 namespace {
 
-constexpr uint32_t PAIR_BYTES = 16, TEXEL_BYTES = 8;
+constexpr uint32_t TEXEL_BYTES = 8;
 
 } // namespace
 
-TexelPairs::TexelPairs(std::shared_ptr<const vulkan::Device> device) : device_(std::move(device)) {
-    const vulkan::Shader shader(device_, "lookup/pack_pairs.comp", lookup_pack_pairs_comp_spv);
-    inside_ = vulkan::ComputePipeline(device_, shader);
-    border_ = vulkan::ComputePipeline(device_, shader,
-                                      vulkan::SpecializationConstants{}.set(shared::SPEC_PACK_BORDER, true));
+TexelPairs::TexelPairs(std::shared_ptr<const vulkan::Device> device)
+    : device_(std::move(device)), shader_(device_, "lookup/pack_pairs.comp", lookup_pack_pairs_comp_spv) {}
+
+const TexelPairs::Pipelines& TexelPairs::pipelines(vulkan::ElementAccess access) {
+    const auto found = pipelines_.find(access);
+    if (found != pipelines_.end()) return found->second;
+    vulkan::SpecializationConstants constants;
+    constants.set(shared::SPEC_PACK_IS_STORED, access == vulkan::ElementAccess::storage);
+    Pipelines made;
+    made.inside = vulkan::ComputePipeline(device_, shader_, constants);
+    made.border = vulkan::ComputePipeline(device_, shader_, constants.set(shared::SPEC_PACK_BORDER, true));
+    return pipelines_.emplace(access, std::move(made)).first->second;
 }
 
-PairBuffer TexelPairs::record(vulkan::Commands& commands, vulkan::Image& cubes) {
+vulkan::ElementBuffer TexelPairs::record(vulkan::Commands& commands, vulkan::Image& cubes,
+                                         vulkan::ElementAccess access) {
     const vulkan::ImageSettings& settings = cubes.settings();
     const uint64_t cube_pairs = cube_pair_count(settings.width);
-    PairBuffer pairs;
-    pairs.buffer = vulkan::Buffer(device_, cube_pairs * (settings.layers / 6) * PAIR_BYTES,
-                                  VK_BUFFER_USAGE_STORAGE_TEXEL_BUFFER_BIT);
-    pairs.view = vulkan::texel_view(pairs.buffer, VK_FORMAT_R32G32B32A32_UINT);
+    vulkan::ElementBuffer pairs(device_, cube_pairs * (settings.layers / 6), VK_FORMAT_R32G32B32A32_UINT,
+                                access);
 
     std::vector<VkBufferImageCopy> copies;
     uint64_t texels = 0;
@@ -39,22 +45,21 @@ PairBuffer TexelPairs::record(vulkan::Commands& commands, vulkan::Image& cubes) 
         copies.push_back(copy);
         texels += uint64_t(settings.layers) * size * size;
     }
-    texels_ = vulkan::Buffer(device_, texels * TEXEL_BYTES, VK_BUFFER_USAGE_STORAGE_TEXEL_BUFFER_BIT);
-    texels_view_ = vulkan::texel_view(texels_, VK_FORMAT_R32G32_UINT);
+    texels_ = vulkan::ElementBuffer(device_, texels, VK_FORMAT_R32G32_UINT, access);
     commands.transition(cubes, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL);
-    vkCmdCopyImageToBuffer(commands.handle(), cubes.handle(), cubes.layout(), texels_.handle(),
+    vkCmdCopyImageToBuffer(commands.handle(), cubes.handle(), cubes.layout(), texels_.buffer().handle(),
                            uint32_t(copies.size()), copies.data());
     commands.transition(cubes, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
     commands.barrier();
 
-    set_ = vulkan::DescriptorSet(inside_);
-    set_.bind_texel_buffer(shared::BINDING_PACK_TEXELS, texels_view_)
-        .bind_texel_buffer(shared::BINDING_PACK_PAIRS, pairs.view);
-    const auto dispatch = [&](const vulkan::ComputePipeline& pipeline) {
+    const auto& [inside, border] = pipelines(access);
+    set_ = vulkan::DescriptorSet(inside);
+    texels_.bind(set_, shared::BINDING_PACK_TEXELS, shared::BINDING_PACK_STORED_TEXELS);
+    pairs.bind(set_, shared::BINDING_PACK_PAIRS, shared::BINDING_PACK_STORED_PAIRS);
+    const auto dispatch = [&](const vulkan::ComputePipeline& pipeline, bool is_border) {
         uint32_t begin = 0;
         for (const VkBufferImageCopy& copy : copies) {
             const uint32_t size = copy.imageExtent.width;
-            const bool is_border = &pipeline == &border_;
             const shared::PackRecord push{size, uint32_t(copy.bufferOffset / TEXEL_BYTES), begin,
                                           uint32_t(cube_pairs)};
             const uint32_t items = is_border ? 4 * size + 2 : size + 1, per_group = pipeline.local_size()[0];
@@ -64,8 +69,8 @@ PairBuffer TexelPairs::record(vulkan::Commands& commands, vulkan::Image& cubes) 
         }
         commands.barrier();
     };
-    dispatch(inside_);
-    dispatch(border_);
+    dispatch(inside, false);
+    dispatch(border, true);
     return pairs;
 }
 

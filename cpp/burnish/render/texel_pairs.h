@@ -2,16 +2,12 @@
 #pragma once
 
 #include "burnish/vulkan/commands.h"
+#include "burnish/vulkan/element_buffer.h"
 
+#include <map>
 #include <memory>
 
 namespace burnish {
-
-/// All pairs of a cube array and their view as a buffer of RGBA32UI.
-struct PairBuffer {
-    vulkan::Buffer buffer;
-    vulkan::TexelView view;
-};
 
 /// Packs cube arrays into pairs. Not for several threads at once.
 class TexelPairs {
@@ -22,14 +18,20 @@ public:
     /// texels at a cube's corner is rounded to half. `cubes` is a cube array of RGBA16F in
     /// SHADER_READ_ONLY_OPTIMAL, and is so afterwards. It and this object must live until the commands are
     /// done.
-    PairBuffer record(vulkan::Commands& commands, vulkan::Image& cubes);
+    vulkan::ElementBuffer record(vulkan::Commands& commands, vulkan::Image& cubes,
+                                 vulkan::ElementAccess access);
 
 private:
+    struct Pipelines {
+        vulkan::ComputePipeline inside, border;
+    };
+    const Pipelines& pipelines(vulkan::ElementAccess access);
+
     std::shared_ptr<const vulkan::Device> device_;
-    vulkan::ComputePipeline inside_, border_;
+    vulkan::Shader shader_;
+    std::map<vulkan::ElementAccess, Pipelines> pipelines_;
     // Of the last call: the cubes as they lie in memory, level by level.
-    vulkan::Buffer texels_;
-    vulkan::TexelView texels_view_;
+    vulkan::ElementBuffer texels_;
     vulkan::DescriptorSet set_;
 };
 

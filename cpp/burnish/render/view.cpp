@@ -77,6 +77,12 @@ shared::ViewRecord make_view(const Camera& camera, uint32_t width, uint32_t heig
     return view;
 }
 
+void keep_clip_in_range(shared::ViewRecord& view, double clip_reach) {
+    constexpr int MOST_EXPONENT = 40;
+    const int exponent = std::ilogb(std::max(clip_reach, 1.0)) + 1;
+    if (exponent > MOST_EXPONENT) view.clip_from_world *= std::ldexp(1.0f, MOST_EXPONENT - exponent);
+}
+
 glm::vec2 filter_offset(uint32_t index, uint32_t count) {
     if (count <= 1) return glm::vec2(0.0f);
     // Additive recurrence of the plastic number; half a step in, so that no picture looks at the window's

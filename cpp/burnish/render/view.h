@@ -13,6 +13,11 @@ namespace burnish::render {
 /// `jitter_px`: offset of the rays from the pixel centres, x right, y down.
 shared::ViewRecord make_view(const Camera& camera, uint32_t width, uint32_t height, glm::vec2 jitter_px);
 
+/// Scales clip space so that no coordinate, of which the largest is `clip_reach`, is beyond 2^40: rasterisers
+/// multiply three of them, and SwiftShader drops a triangle where that overflows. By a power of two, the same
+/// for all corners: after the division by w nothing differs.
+void keep_clip_in_range(shared::ViewRecord& view, double clip_reach);
+
 /// Offset of picture `index`, drawn from the reconstruction filter itself (a Blackman-Harris window, 3 pixels
 /// wide), so that all pictures weigh the same. Picture 0 of 1 looks at the centre.
 glm::vec2 filter_offset(uint32_t index, uint32_t count);

@@ -106,6 +106,8 @@ public:
     void clear_color_image(Image& image, const VkClearColorValue& value);
     /// Whole regions, stretched; the same image may be both sides if it is in GENERAL and the levels differ.
     void blit(Image& source, const ImageRegion& from, Image& target, const ImageRegion& to, VkFilter filter);
+    /// Makes each level of all layers from the one above it, by linear blits; the image is in GENERAL.
+    void blit_levels(Image& image);
 
     /// Makes all earlier commands' results visible to all later ones and moves the image to `layout`.
     void transition(Image& image, VkImageLayout layout);

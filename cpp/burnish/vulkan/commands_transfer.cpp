@@ -133,4 +133,15 @@ void Commands::blit(Image& source, const ImageRegion& from, Image& target, const
                    &info, filter);
 }
 
+void Commands::blit_levels(Image& image) {
+    ImageRegion from, to;
+    from.layer_count = to.layer_count = image.settings().layers;
+    for (uint32_t level = 1; level < image.settings().levels; ++level) {
+        from.level = level - 1;
+        to.level = level;
+        blit(image, from, image, to, VK_FILTER_LINEAR);
+        barrier();
+    }
+}
+
 } // namespace burnish::vulkan

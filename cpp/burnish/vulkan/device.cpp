@@ -1,5 +1,6 @@
 #include "burnish/vulkan/device.h"
 
+#include "burnish/error.h"
 #include "burnish/vulkan/command_frames.h"
 #include "burnish/vulkan/descriptor_set.h"
 #include "burnish/vulkan/device_selection.h"
@@ -7,8 +8,11 @@
 #include "burnish/vulkan/result.h"
 #include "burnish/vulkan/validation.h"
 
+#include <algorithm>
+#include <charconv>
 #include <cstdio>
 #include <cstdlib>
+#include <cstring>
 #include <limits>
 #include <string_view>
 #include <unistd.h>
@@ -85,6 +89,19 @@ void read_figures(VkPhysicalDevice physical, uint32_t queue_family, DeviceFeatur
     features.timestamps = features.timestamp_valid_bits > 0 && features.timestamp_period_ns > 0;
 }
 
+/// BURNISH_TEXEL_LIMIT: for tests, a device whose texel buffers hold less.
+uint32_t texel_limit_from_environment() {
+    const char* value = std::getenv("BURNISH_TEXEL_LIMIT");
+    uint32_t limit = std::numeric_limits<uint32_t>::max();
+    if (!value || !*value) return limit;
+    const char* end = value + std::strlen(value);
+    const auto [last, error] = std::from_chars(value, end, limit);
+    if (error != std::errc() || last != end || limit < 1)
+        throw std::invalid_argument(
+            message("BURNISH_TEXEL_LIMIT: expected a count of 1 or more, got '", value, "'"));
+    return limit;
+}
+
 } // namespace
 
 VkDevice raw_device(const Device& device) {
@@ -133,6 +150,7 @@ void Device::open() {
     vkGetPhysicalDeviceFeatures2(physical_, &present.core10);
     enable(wanted, present, features_);
     read_figures(physical_, queue_family_, features_, limits_);
+    limits_.maxTexelBufferElements = std::min(limits_.maxTexelBufferElements, texel_limit_from_environment());
 
     const float priority = 1;
     VkDeviceQueueCreateInfo queue{VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO};

@@ -36,6 +36,13 @@ std::vector<std::byte> read_back(const Buffer& source, VkDeviceSize offset = 0,
 void read_back(const Buffer& source, std::span<std::byte> data, VkDeviceSize offset = 0,
                const TransferSettings& settings = {});
 
+template <typename T>
+std::vector<T> read_elements(const Buffer& source, std::size_t count) {
+    std::vector<T> result(count);
+    read_back(source, std::as_writable_bytes(std::span(result)));
+    return result;
+}
+
 /// The image is brought back to the layout it was in.
 std::vector<std::byte> read_back(Image& source, const ImageRegion& region);
 void read_back(Image& source, const ImageRegion& region, std::span<std::byte> data,

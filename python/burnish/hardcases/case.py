@@ -18,6 +18,8 @@ ONCE = ("",)
 
 #: Hardware rounds the weights of a lookup, along x, along y and between levels, to 8 bits.
 ROUNDED_WEIGHTS = 3 * 2.0**-9
+#: Rasterisers move corners of triangles to a grid of 2^-bits pixels: 8 on GPUs and lavapipe, 4 at the least.
+FINE_SUB_PIXEL_BITS = 8
 
 
 def driver_class(device: "Device") -> DriverClass:
@@ -47,15 +49,27 @@ class Bound:
     corners : float
         What the software lookup adds: the mean of three texels that stands for a corner's fourth is kept as a
         half float, up to 2^-12 off, of which a lookup sees a quarter at the corner and less elsewhere.
+    snapped : float
+        What rasterisers add that move corners of triangles to a grid of less than `FINE_SUB_PIXEL_BITS`.
     """
 
     value: float | Mapping[str, float]
     reason: str
     corners: float = 0.0
+    snapped: float = 0.0
 
     def of(self, sampler: str) -> float:
         """Return the bound for one sampler, "" for a case without."""
         return self.value[sampler] if isinstance(self.value, Mapping) else self.value
+
+    def on(self, device: "Device", sampler: str) -> float:
+        """Return the same with what is allowed to this device."""
+        value = self.of(sampler)
+        if device.lookup == "software":
+            value += self.corners
+        if device.limits["sub_pixel_bits"] < FINE_SUB_PIXEL_BITS:
+            value += self.snapped
+        return value
 
 
 @dataclass(frozen=True)

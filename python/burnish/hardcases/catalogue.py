@@ -41,23 +41,19 @@ class KnownFailure:
         Those of the rows.
     reason : str
         Why, and by how much.
-    cases : tuple of str
-        Names of the rows' cases; empty: any.
     """
 
     driver: str
     lookup: str
     samplers: tuple[str, ...]
     reason: str
-    cases: tuple[str, ...] = ()
 
-    def fits(self, device: Device, case: str, sampler: str) -> bool:
+    def fits(self, device: Device, sampler: str) -> bool:
         """Whether it says anything of a row on a device."""
         return (
             self.driver in f"{device.name} {device.driver}".lower()
             and self.lookup in ("", device.lookup)
             and sampler in self.samplers
-            and (not self.cases or case in self.cases)
         )
 
 
@@ -65,33 +61,7 @@ _STALE = (
     "in compute shaders SwiftShader's sampler reads stale texels beyond the edges of cube faces: nothing is "
     "lost in the middle of faces, 5 % where lookups are wide, up to all in levels of few texels"
 )
-_PICTURES = (
-    KnownFailure(
-        "swiftshader",
-        "",
-        ONCE,
-        "SwiftShader drops triangles whose corners lie 1e18 away",
-        ("wall at distance 1e18",),
-    ),
-    KnownFailure(
-        "swiftshader",
-        "",
-        ONCE,
-        "SwiftShader moves corners of triangles to a grid of 1/16 pixel: mirrored facets differ by 5 %",
-        ("mirrored object",),
-    ),
-)
-KNOWN_FAILURES = (
-    *_PICTURES,
-    KnownFailure(
-        "swiftshader",
-        "software",
-        ("regular", "matched"),
-        "SwiftShader's texel buffers hold 65536 elements: VulkanError refuses faces of 128 and more",
-        ("faces of 2048 texels", "sun of half a degree, split off"),
-    ),
-    KnownFailure("swiftshader", "sampler", (*SAMPLERS, *ONCE), _STALE),
-)
+KNOWN_FAILURES = (KnownFailure("swiftshader", "sampler", (*SAMPLERS, *ONCE), _STALE),)
 
 
 def find_case(name: str) -> HardCase:
@@ -113,6 +83,6 @@ def find_case(name: str) -> HardCase:
     raise ValueError(f"name: expected that of a hard case, got {name!r}")
 
 
-def known_failure(device: Device, case: str, sampler: str) -> str:
-    """Return the reason why this device fails a row, "" where it must pass."""
-    return next((known.reason for known in KNOWN_FAILURES if known.fits(device, case, sampler)), "")
+def known_failure(device: Device, sampler: str) -> str:
+    """Return the reason why this device fails a sampler's rows, "" where they must pass."""
+    return next((known.reason for known in KNOWN_FAILURES if known.fits(device, sampler)), "")

@@ -34,16 +34,14 @@ def measure(case: HardCase, sampler: str, bench: Bench) -> Measurement:
     measurement : Measurement
         Where the case raised an error, it failed and the note says which.
     """
-    bound = case.limit.of(sampler)
-    if bench.device.lookup == "software":
-        bound += case.limit.corners
+    bound = case.limit.on(bench.device, sampler)
     measured, note = math.nan, ""
     try:
         with np.errstate(all="ignore"):
             measured = case.quantity.measure(bench, sampler)
     except Exception as error:  # the table goes on, whatever broke
         note = f"{type(error).__name__}: {' '.join(str(error).split())}"
-    known = known_failure(bench.device, case.name, sampler)
+    known = known_failure(bench.device, sampler)
     return Measurement(case.name, sampler, case.quantity.name, bound, measured, known, note)
 
 

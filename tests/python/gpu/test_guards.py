@@ -1,4 +1,8 @@
-"""Nothing that is not finite leaves a pass: the report says how many became black, where, in which pass."""
+"""Nothing that is not finite leaves a frame: the report says how many became black, where, in which pass."""
+
+import shutil
+import subprocess
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -65,3 +69,48 @@ def test_finite_pictures_stop_nothing_in_strict_mode(bright, device):
     scene.environment = bright
     frame = burnish.render(scene, size=(16, 16), sampler=burnish.Regular(5), device=device, strict=True)
     assert frame.report.stopped == [] and frame.report.non_finite == 0
+
+
+@pytest.fixture
+def overflowing_background(tmp_path, monkeypatch):
+    """A device whose background overflows, which no map can make it do."""
+    compiler = shutil.which("glslangValidator")
+    if compiler is None:
+        pytest.skip("glslangValidator is not installed")
+    glsl = Path(__file__).parents[3] / "glsl"
+    source = (glsl / "shade/background.comp.glsl").read_text()
+    assert source.count("map.radiance_scale") == 1
+    (tmp_path / "naive.comp").write_text(source.replace("map.radiance_scale", "1e38 * 1e38"))
+    output = tmp_path / "shade_background_comp.spv"
+    command = [compiler, "-V", "--quiet", "--target-env", "vulkan1.3", f"-I{glsl}", "-o", output]
+    subprocess.run([*command, tmp_path / "naive.comp"], check=True)
+    monkeypatch.setenv("BURNISH_SPIRV_DIR", str(tmp_path))
+    return burnish.Device()
+
+
+def test_every_pass_that_stopped_something_is_counted_and_named(bright, overflowing_background):
+    scene = burnish.Scene.sphere(overflowing())
+    scene.environment = bright
+    arguments = {"size": (20, 24), "sampler": burnish.Regular(5), "device": overflowing_background}
+    frame = burnish.render(scene, **arguments)
+    covered = frame.alpha > 0
+    assert not frame.color.any()
+    shade, background = frame.report.stopped
+    assert (shade["pass"], shade["count"]) == ("shade", covered.sum())
+    assert (background["pass"], background["count"]) == ("background", (~covered).sum())
+    assert tuple(background["first"]) == tuple(np.argwhere(~covered)[0])
+    text = rf"pass shade: {covered.sum()} values .*; pass background: {(~covered).sum()} values"
+    with pytest.raises(FloatingPointError, match=text):
+        burnish.render(scene, strict=True, **arguments)
+
+
+def test_guard_stops_and_counts_in_each_of_many_pictures(bright, device):
+    scene = burnish.Scene.sphere(overflowing())
+    scene.environment = bright
+    one, four = (
+        burnish.render(scene, size=(20, 24), sampler=burnish.Regular(5), spp=spp, device=device)
+        for spp in (1, 4)
+    )
+    assert np.isfinite(four.color).all() and not four.color[10, 12].any()
+    [stopped] = four.report.stopped
+    assert 3 * one.report.non_finite < stopped["count"] < 5 * one.report.non_finite

@@ -128,6 +128,31 @@ def test_report_says_which_lookup_ran_and_why(software):
     assert not planned["software lookup"]["on"] and "hardware" in planned["software lookup"]["reason"]
 
 
+@pytest.mark.parametrize("sampler", [burnish.Regular(5), burnish.Matched(5), burnish.Prefiltered()], ids=repr)
+def test_small_texel_buffers_change_nothing_but_where_pairs_lie(software, monkeypatch, sampler):
+    scene = burnish.Scene.sphere(burnish.Material(lobes=[burnish.KurtLobe(roughness=0.2)]))
+    scene.environment = environments.spots(1, 16)
+    monkeypatch.setenv("BURNISH_TEXEL_LIMIT", "1000")  # a map of faces of 16 has 2,716 pairs
+    small = burnish.Device(lookup="software")
+    assert small.limits["max_texel_buffer_elements"] == 1000
+    frames = [burnish.render(scene, size=(24, 32), sampler=sampler, device=one) for one in (software, small)]
+    np.testing.assert_array_equal(*(frame.color for frame in frames))
+    line = {one["name"]: one for one in frames[1].report.effects}["software lookup"]
+    assert line["on"] and line["reason"].endswith(
+        "maps of 1 of 1 sizes are read from storage buffers: they are too large for texel buffers"
+    )
+    levels = [scene.environment.pyramid(device=one) for one in (software, small)]
+    for expected, found in zip(*levels, strict=True):
+        np.testing.assert_array_equal(found, expected)
+
+
+@pytest.mark.parametrize("text", ["0", "-1", "many", "1000x"])
+def test_texel_limits_that_make_no_sense_are_refused(monkeypatch, text):
+    monkeypatch.setenv("BURNISH_TEXEL_LIMIT", text)
+    with pytest.raises(ValueError, match=f"BURNISH_TEXEL_LIMIT: expected a count .* got '{text}'"):
+        burnish.Device()
+
+
 def test_unknown_lookups_are_refused(monkeypatch):
     with pytest.raises(ValueError, match="expected auto, sampler or software, got 'nearest'"):
         burnish.Device(lookup="nearest")

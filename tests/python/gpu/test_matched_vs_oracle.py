@@ -92,6 +92,17 @@ def test_brushed_lobes_equal_the_oracle(device, spots64, points, name, samples):
     compare(device, got, shade_matched_lobes(light_map, material, samples, *points))
 
 
+def test_a_table_that_no_texel_buffer_holds_lies_in_a_storage_buffer(monkeypatch, device, spots64, points):
+    material = burnish.Material(lobes=[BRUSHED["brushed"]])
+    expected = burnish.shade(spots64, material, burnish.Matched(5), *points, device=device)
+    # The map's 100 thousand pairs lie in a texel buffer, the table's 164 thousand entries do not.
+    monkeypatch.setenv("BURNISH_TEXEL_LIMIT", "120000")
+    small = burnish.Device(device.name, lookup=device.lookup)
+    np.testing.assert_array_equal(
+        burnish.shade(spots64, material, burnish.Matched(5), *points, device=small), expected
+    )
+
+
 def test_several_round_lobes_add_up(device, spots64, points):
     lobes = [ROUND["narrow"], ROUND["middle"]]
     got = burnish.shade(spots64, burnish.Material(lobes=lobes), burnish.Matched(9), *points, device=device)

@@ -1,0 +1,93 @@
+// The part of Renderer that shades points from outside.
+#include <cmath>
+
+#include "burnish/render/renderer.h"
+#include "burnish/render/stopwatch.h"
+#include "burnish/vulkan/transfer.h"
+
+namespace burnish::render {
+namespace {
+
+/// In double: squares of the longest and shortest float32 vectors fit. Zero where there is no direction.
+glm::vec3 unit_or_zero(const glm::vec3& vector) {
+    const glm::dvec3 wide(vector);
+    const double length = glm::length(wide);
+    return length > 0.0 ? glm::vec3(wide / length) : glm::vec3(0.0f);
+}
+
+} // namespace
+
+std::vector<glm::vec3> Renderer::shade(const std::shared_ptr<const Environment>& environment,
+                                       const Material& material, const ShadePoints& points,
+                                       const PlanSettings& settings, Report* report,
+                                       const Progress& progress) {
+    const auto lock = enter();
+    return within_memory(message(points.normals.size(), " points to shade"), [&] {
+        return shade_points(environment, material, points, settings, report, progress);
+    });
+}
+
+std::vector<glm::vec3> Renderer::shade_points(const std::shared_ptr<const Environment>& environment,
+                                              const Material& material, const ShadePoints& points,
+                                              const PlanSettings& settings, Report* report,
+                                              const Progress& progress) {
+    const Stopwatch wall;
+    const size_t count = points.normals.size();
+    if (points.tangents.size() != count || points.views.size() != count)
+        throw std::invalid_argument(message("tangents, views: expected as many as normals, ", count, ", got ",
+                                            points.tangents.size(), " and ", points.views.size()));
+    if (count == 0) return {};
+    if (count > 0xffffffffu / sizeof(shared::SurfacePoint))
+        throw std::invalid_argument(message("normals: expected at most ",
+                                            0xffffffffu / sizeof(shared::SurfacePoint), " points, got ",
+                                            count));
+    pipelines_.take_compile_ms();
+    Scene scene;
+    scene.environment = environment;
+    scene.materials = {material};
+    scene.materials[0].source.reset(); // points carry no texture coordinates: its factors hold everywhere
+    scene.objects.emplace_back();
+    const Plan plan = make_plan(scene, settings);
+    std::vector<vulkan::PassTime> times;
+    const std::vector<std::shared_ptr<EnvironmentMaps>> maps = prepare_maps(plan, times);
+    const ShadeTables tables = make_shade_tables(device_, scene, plan, tables_);
+
+    std::vector<shared::SurfacePoint> records(count);
+    for (size_t k = 0; k < count; ++k)
+        records[k] = {glm::vec4(unit_or_zero(points.normals[k]), 0.0f),
+                      glm::vec4(unit_or_zero(points.tangents[k]), 1.0f),
+                      glm::vec4(unit_or_zero(points.views[k]), 0.0f)};
+    const VkBufferUsageFlags storage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT;
+    const vulkan::Buffer point_buffer =
+        vulkan::make_buffer(device_, std::as_bytes(std::span(records)), storage);
+    const vulkan::Buffer radiance(device_, count * sizeof(glm::vec4), storage);
+    const shared::Counters none = ShadePass::no_counts(uint32_t(count));
+    const vulkan::Buffer counters = vulkan::make_buffer(device_, std::as_bytes(std::span(&none, 1)),
+                                                        storage | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT);
+    std::optional<ReferenceBuffers> reference;
+    if (std::holds_alternative<Reference>(plan.settings.sampler))
+        reference = make_reference_buffers(scene, plan, count);
+    const ShadeInputs inputs{nullptr, &point_buffer, uint32_t(count), &radiance, &counters};
+    const ShadePass shade(pipelines_, plan, tables, maps, inputs, placeholders_,
+                          reference ? &*reference : nullptr);
+    Report local = start_report(scene, plan, tables);
+    local.compile_ms = pipelines_.take_compile_ms();
+    if (reference) {
+        run_reference(plan, shade, *reference, count, progress, local);
+    } else {
+        vulkan::Commands commands(device_);
+        shade.record_shade(commands, {});
+        shade.record_guard(commands);
+        commands.submit();
+        add_pass_times(times, commands.pass_times());
+    }
+    const std::vector<glm::vec4> result = vulkan::read_elements<glm::vec4>(radiance, count);
+    add_stopped(local, counters);
+    times.insert(times.end(), local.passes.begin(), local.passes.end());
+    local.passes = std::move(times);
+    local.wall_ms = wall.milliseconds();
+    if (report) *report = std::move(local);
+    return {result.begin(), result.end()};
+}
+
+} // namespace burnish::render
