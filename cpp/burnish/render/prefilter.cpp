@@ -1,6 +1,6 @@
 #include "burnish/render/prefilter.h"
 
-#include "burnish/render/shade_pass.h"
+#include "burnish/render/shade_variant.h"
 #include "burnish/sampling/prefilter_table.h"
 #include "burnish/vulkan/transfer.h"
 #include "shared/constants.h"

@@ -9,6 +9,7 @@
 #include "burnish/render/environment_maps.h"
 #include "burnish/render/pipelines.h"
 #include "burnish/render/shade_tables.h"
+#include "burnish/render/shade_variant.h"
 #include "burnish/render/surface_pass.h"
 #include "burnish/vulkan/commands.h"
 
@@ -87,8 +88,5 @@ private:
     std::vector<Stage> tile_stages_;
     std::vector<Stage> guard_;
 };
-
-/// Which lookup the kernel compiles, and for which size of faces.
-void add_lookup_constants(vulkan::SpecializationConstants& constants, const MapSet& set);
 
 } // namespace burnish::render

@@ -1,0 +1,130 @@
+#include "burnish/render/shade_variant.h"
+
+#include <bit>
+
+#include "shared/constants.h"
+
+namespace burnish::render {
+namespace {
+
+uint32_t form_of(AlphaForm form) {
+    switch (form) {
+    case AlphaForm::zero:
+        return shared::ALPHA_ZERO;
+    case AlphaForm::half:
+        return shared::ALPHA_HALF;
+    case AlphaForm::general:
+        return shared::ALPHA_GENERAL;
+    }
+    return shared::ALPHA_GENERAL;
+}
+
+uint32_t code_of(MapLookup lookup) {
+    switch (lookup) {
+    case MapLookup::sampler:
+        return shared::LOOKUP_SAMPLER;
+    case MapLookup::software:
+        return shared::LOOKUP_TEXELS;
+    case MapLookup::software_stored:
+        return shared::LOOKUP_STORAGE;
+    }
+    return shared::LOOKUP_SAMPLER;
+}
+
+uint32_t table_of(TableForm form, const Sampler& sampler) {
+    switch (form) {
+    case TableForm::constant:
+        return shared::TABLE_CONSTANT;
+    case TableForm::scaled:
+        return std::holds_alternative<Regular>(sampler) ? shared::TABLE_SCALED_REGULAR
+                                                        : shared::TABLE_SCALED_IMPORTANCE;
+    case TableForm::matched:
+        return shared::TABLE_MATCHED;
+    case TableForm::matched_by_view:
+        return shared::TABLE_MATCHED_BY_VIEW;
+    case TableForm::prefiltered:
+        return shared::TABLE_PREFILTERED;
+    case TableForm::none:
+    case TableForm::buffer:
+        return shared::TABLE_BUFFER;
+    }
+    return shared::TABLE_BUFFER;
+}
+
+uint32_t normalization_of(const Sampler& sampler, TableForm form) {
+    if (std::holds_alternative<Matched>(sampler)) return shared::NORMALIZATION_FURNACE;
+    const auto* regular = std::get_if<Regular>(&sampler);
+    if (!regular) return shared::NORMALIZATION_CONSTANT;
+    if (regular->normalization == Normalization::furnace) return shared::NORMALIZATION_FURNACE;
+    if (form != TableForm::scaled) return shared::NORMALIZATION_CONSTANT;
+    return regular->normalization == Normalization::published ? shared::NORMALIZATION_PUBLISHED
+                                                              : shared::NORMALIZATION_PROJECTED;
+}
+
+} // namespace
+
+const char* shader_of(TableForm form) {
+    switch (form) {
+    case TableForm::none:
+    case TableForm::constant:
+        return "shade/shade_constant.comp";
+    case TableForm::buffer:
+    case TableForm::scaled:
+        return "shade/shade_buffer.comp";
+    case TableForm::matched:
+        return "shade/shade_matched.comp";
+    case TableForm::matched_by_view:
+        return "shade/shade_matched_by_view.comp";
+    case TableForm::prefiltered:
+        return "shade/shade_prefiltered.comp";
+    }
+    return "shade/shade_constant.comp";
+}
+
+vulkan::SpecializationConstants common_constants(const ShadeTraits& traits, uint32_t shade_class,
+                                                 bool is_points) {
+    vulkan::SpecializationConstants constants;
+    constants.set(shared::SPEC_SOURCE, is_points ? shared::SOURCE_POINTS : shared::SOURCE_PIXELS)
+        .set(shared::SPEC_LOBE_COUNT, traits.lobe_count)
+        .set(shared::SPEC_CONSERVES_ENERGY, traits.conserves_energy)
+        .set(shared::SPEC_HAS_TANGENT, traits.has_tangent)
+        .set(shared::SPEC_HAS_DIFFUSE, traits.has_diffuse)
+        .set(shared::SPEC_HAS_EMISSIVE, traits.has_emissive)
+        .set(shared::SPEC_HAS_VARYING, traits.has_varying)
+        .set(shared::SPEC_HAS_COAT, traits.has_coat)
+        .set(shared::SPEC_HAS_MAP_ROTATION, traits.has_map_rotation)
+        .set(shared::SPEC_SHADE_CLASS, shade_class);
+    return constants;
+}
+
+void add_pattern_constants(vulkan::SpecializationConstants& constants, const ShadeTraits& traits,
+                           const PlanSettings& settings, const SampleTable& table, uint32_t buffer_count) {
+    const Sampler& sampler = settings.sampler;
+    const auto* regular = std::get_if<Regular>(&sampler);
+    const bool is_published = regular && regular->footprint == Footprint::published;
+    constants.set(shared::SPEC_HAS_FRESNEL, traits.has_fresnel)
+        .set(shared::SPEC_ALPHA, form_of(traits.alpha))
+        .set(shared::SPEC_TABLE, table_of(traits.table, sampler))
+        .set(shared::SPEC_FOOTPRINT, is_published ? shared::FOOTPRINT_PUBLISHED : shared::FOOTPRINT_EXACT)
+        .set(shared::SPEC_SUN_COUNT, traits.sun_count)
+        .set(shared::SPEC_WITHOUT_LOOKUPS, !settings.has_lookups)
+        .set(shared::SPEC_NORMALIZATION, normalization_of(sampler, traits.table));
+    if (const auto* matched = std::get_if<Matched>(&sampler))
+        constants.set(shared::SPEC_SAMPLE_COUNT, matched->samples)
+            .set(shared::SPEC_WIDE_COMPONENTS, traits.has_wide_components);
+    if (traits.table == TableForm::buffer || traits.table == TableForm::scaled)
+        constants.set(shared::SPEC_SAMPLE_COUNT, buffer_count);
+    if (traits.table != TableForm::constant) return;
+    constants.set(shared::SPEC_SAMPLE_COUNT, uint32_t(table.entries.size()));
+    for (uint32_t k = 0; k < table.entries.size(); ++k)
+        for (uint32_t c = 0; c < 4; ++c)
+            constants.set(shared::SPEC_SAMPLES + 4 * k + c, table.entries[k][int(c)]);
+}
+
+void add_lookup_constants(vulkan::SpecializationConstants& constants, const MapSet& set) {
+    const bool is_software = set.lookup != MapLookup::sampler;
+    constants.set(shared::SPEC_LOOKUP, code_of(set.lookup))
+        .set(shared::SPEC_LAST_LEVEL, is_software ? std::countr_zero(set.face_size) : 0);
+}
+
+} // namespace burnish::render
