@@ -111,13 +111,6 @@ MUTATIONS = (
         ("regular", "importance"),
     ),
     Mutation(
-        "(1 - o.h)^5 by pow",
-        KURT,
-        "float a = clamp(1.0 - u, 0.0, 1.0);\n    float a2 = a * a;\n    return a2 * a2 * a;",
-        "return pow(1.0 - u, 5.0);",
-        ("r0 0, straight from above",),
-    ),
-    Mutation(
         "sums divided without looking",
         LOBE,
         "    bvec3 usable = greaterThan(denominator, vec3(1e-30));\n"
@@ -201,7 +194,7 @@ MUTATIONS = (
         MATCHED,
         "const float trace = 1e-8;",
         "const float trace = 0.0;",
-        ("brushed lobe at cos 1e-3",),
+        ("very brushed lobe at cos 1e-3",),
         ("matched",),
     ),
     Mutation(

@@ -97,6 +97,15 @@ def view_cases() -> list[HardCase]:
             roughness=(0.3, 0.05),
             alpha=0.5,
         ),
+        twin_case(
+            "very brushed lobe at cos 1e-3",
+            "too brushed for a table by view: samples below the horizon, placed at the point",
+            "maths 7",
+            GRAZING_BOUND,
+            _at(1e-3),
+            roughness=(0.5, 0.05),
+            alpha=0.5,
+        ),
         HardCase(
             "view at 90 degrees", "o.h = 0", largest_value(Shot("smooth", _at(0.0), (lobe,))), "maths 7"
         ),
