@@ -12,7 +12,7 @@ namespace burnish::render {
 namespace {
 
 constexpr VkFormat SAMPLE_FORMAT = VK_FORMAT_R32G32B32A32_SFLOAT;
-constexpr uint64_t MOST_KEPT_VIEW_ENTRIES = 32'000'000; ///< 512 MB
+constexpr uint64_t MOST_KEPT_VIEW_ENTRIES = 16'000'000; ///< 256 MB
 
 } // namespace
 
