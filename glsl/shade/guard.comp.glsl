@@ -7,7 +7,7 @@
 #include "shade/guard.glsl"
 
 void main() {
-    uint group = gl_WorkGroupID.z * GROUPS_PER_ROW + gl_WorkGroupID.y;
+    uint group = gl_WorkGroupID.z * gl_NumWorkGroups.y + gl_WorkGroupID.y;
     uint index = group * (TILE_SIZE * TILE_SIZE) + gl_LocalInvocationIndex;
     if (index >= push.point_count) return;
     vec4 radiance = radiance_out[index];

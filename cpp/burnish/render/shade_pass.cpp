@@ -176,10 +176,10 @@ void ShadePass::record_guard(vulkan::Commands& commands) const {
 }
 
 shared::Counters ShadePass::no_counts(uint32_t point_count) {
-    const uint32_t groups = group_count(point_count);
+    const GroupRows rows = fold_groups(group_count(point_count));
     shared::Counters counters{};
-    counters.guard[1] = std::min(groups, shared::GROUPS_PER_ROW);
-    counters.guard[2] = (groups + shared::GROUPS_PER_ROW - 1) / shared::GROUPS_PER_ROW;
+    counters.guard[1] = rows.length;
+    counters.guard[2] = rows.count;
     return counters;
 }
 

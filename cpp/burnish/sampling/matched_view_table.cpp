@@ -75,6 +75,10 @@ public:
         omega_o_ = glm::dvec3(sine * e, cos_o);
         map_ = map_lobe({lobe.roughness_x, lobe.roughness_y}, omega_o_, e);
         shift_ = std::exp2(2.0 * level_shift(lobe, map_.rho));
+        const glm::dvec2 o(omega_o_), change(glm::dot(o, map_.axis1) / map_.rho, glm::dot(o, map_.axis2));
+        const double steepness = glm::length(change);
+        const glm::dvec2 u = steepness > 1e-7 ? change / steepness : glm::dvec2(0.0, 1.0);
+        steepest_ = u.x / map_.rho * map_.axis1 + u.y * map_.axis2;
     }
 
     double rho() const { return map_.rho; }
@@ -96,11 +100,8 @@ private:
     /// VARIANCE_SHARE of what the linear map makes of the component, (s b)^2 (o.h) cos_h^3/c. The lengths are
     /// of the points one deviation to either side along the direction in which cos_i changes most.
     double variance_of(glm::dvec2 slope, double s) const {
-        const glm::dvec2 o(omega_o_), change(glm::dot(o, map_.axis1) / map_.rho, glm::dot(o, map_.axis2));
-        const double steepness = glm::length(change);
-        const glm::dvec2 u = steepness > 1e-7 ? change / steepness : glm::dvec2(0.0, 1.0);
-        const glm::dvec2 h = s * (u.x / map_.rho * map_.axis1 + u.y * map_.axis2);
-        const double og = std::max(omega_o_.z + glm::dot(o, slope), 0.0);
+        const glm::dvec2 h = s * steepest_;
+        const double og = std::max(omega_o_.z + glm::dot(glm::dvec2(omega_o_), slope), 0.0);
         const glm::dvec2 one = slope + h, other = slope - h;
         return VARIANCE_SHARE * s * s * map_.linear * og /
                ((1.0 + glm::dot(one, one)) * (1.0 + glm::dot(other, other)));
@@ -131,7 +132,8 @@ private:
     MatchedLobe lobe_;
     glm::dvec3 omega_o_;
     LobeMap map_;
-    double shift_; ///< of the level, as a factor of variance
+    double shift_;        ///< of the level, as a factor of variance
+    glm::dvec2 steepest_; ///< slope of one deviation of s = 1 along which cos_i changes most
 };
 
 /// The plane of view of an azimuth node.
