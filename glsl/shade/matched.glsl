@@ -23,9 +23,6 @@ struct MixtureView {
     vec2 fresnel;        // F = x + y (1 - o.h)^5 over all channels: weighs directions within a component
 };
 
-// Of the linear map's variance, what a component has.
-const float VARIANCE_SHARE = 0.95;
-
 struct LobeAxes {
     vec2 v1, v2; // unit circle of slopes to principal axes on the map: columns of V
     float rho, minor, foreshortening;
@@ -208,7 +205,7 @@ void place_pair(LobeView v, MixtureView view, vec4 entry, out Lookup one, out Lo
     pair.inverse = inverse_length * inverse_length;
     pair.deviation = pair.s * view.oh;
     // (s b)^2 (o.h) cos_h^3/c, the variance of the linear map, with the lengths at both points; og is left to each.
-    pair.variance = VARIANCE_SHARE * s2 * view.share * view.linear * (pair.inverse.x * pair.inverse.y);
+    pair.variance = MATCHED_VARIANCE_SHARE * s2 * view.share * view.linear * (pair.inverse.x * pair.inverse.y);
     float od = entry.x * view.o1 + entry.y * view.o2;
     if (HAS_WIDE_COMPONENTS) {
         one = place_wide(v, view, pair, pair.d, v.local_o.z + od);

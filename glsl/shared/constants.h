@@ -32,6 +32,8 @@ SHARED_CONST float MATCHED_LOG2_LARGEST_RHO = 5.0874628f;
 SHARED_CONST uint MATCHED_BRUSHED_VIEWS = 128u;
 SHARED_CONST uint MATCHED_AZIMUTHS = 257u; // over half a turn, both ends
 SHARED_CONST float MATCHED_MOST_VIEW_ASPECT = 8.0f;
+// Of the linear map's variance, what a component of a mixture has.
+SHARED_CONST float MATCHED_VARIANCE_SHARE = 0.95f;
 
 // Suns that may be taken out of one map.
 SHARED_CONST uint MAX_SUNS = 4u;

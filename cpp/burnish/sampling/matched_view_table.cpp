@@ -52,8 +52,6 @@ constexpr Point POINTS[] = {{0.0, 0.0, 4.0 / 24.0},
                             {CORNER, -CORNER, 5.0 / 24.0},
                             {-CORNER, CORNER, 5.0 / 24.0},
                             {-CORNER, -CORNER, 5.0 / 24.0}};
-/// Of the linear map's variance, what a component has.
-constexpr double VARIANCE_SHARE = 0.95;
 
 struct Mean {
     double base = 0.0, schlick = 0.0, gain = 0.0;
@@ -97,13 +95,14 @@ public:
     }
 
 private:
-    /// VARIANCE_SHARE of what the linear map makes of the component, (s b)^2 (o.h) cos_h^3/c. The lengths are
-    /// of the points one deviation to either side along the direction in which cos_i changes most.
+    /// MATCHED_VARIANCE_SHARE of what the linear map makes of the component, (s b)^2 (o.h) cos_h^3/c. The
+    /// lengths are of the points one deviation to either side along the direction in which cos_i changes
+    /// most.
     double variance_of(glm::dvec2 slope, double s) const {
         const glm::dvec2 h = s * steepest_;
         const double og = std::max(omega_o_.z + glm::dot(glm::dvec2(omega_o_), slope), 0.0);
         const glm::dvec2 one = slope + h, other = slope - h;
-        return VARIANCE_SHARE * s * s * map_.linear * og /
+        return shared::MATCHED_VARIANCE_SHARE * s * s * map_.linear * og /
                ((1.0 + glm::dot(one, one)) * (1.0 + glm::dot(other, other)));
     }
 
