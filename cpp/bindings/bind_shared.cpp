@@ -45,7 +45,7 @@ std::map<std::string, Layout> shared_layout() {
           FIELD(ViewRecord, background_map), FIELD(ViewRecord, pad0)}},
         {"SurfacePoint",
          {FIELD(SurfacePoint, normal), FIELD(SurfacePoint, tangent), FIELD(SurfacePoint, omega_o)}},
-        {"Counters", {FIELD(Counters, stopped), FIELD(Counters, first), FIELD(Counters, guard)}},
+        {"Counters", {FIELD(Counters, stopped), FIELD(Counters, first)}},
         {"SurfaceRecord",
          {FIELD(SurfaceRecord, base_color), FIELD(SurfaceRecord, emissive), FIELD(SurfaceRecord, specular),
           FIELD(SurfaceRecord, metallic), FIELD(SurfaceRecord, roughness), FIELD(SurfaceRecord, anisotropy),

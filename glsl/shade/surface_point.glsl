@@ -137,13 +137,15 @@ mat3 lobe_frame(mat3 frame, LobeRecord record) {
 void store_radiance(PointToShade point, vec3 radiance, float alpha) {
     if (!point.is_mine) return;
     if (SOURCE == SOURCE_POINTS && !point.is_seen) radiance = vec3(0.0);
+    if (COUNTS_NON_FINITE)
+        radiance = stop_non_finite(radiance, point.index, alpha == 0.0 ? GUARD_BACKGROUND : GUARD_SHADE);
+    uint place = COUNTS_NON_FINITE ? point.index : guarded_place(radiance, point.index);
     if (IS_DISPLAY) {
-        vec4 color = vec4(stop_non_finite(radiance, point.index, shaded_by(alpha)), alpha);
-        display_out[point.index] = display_pixel(color, push.display_scale);
-        return;
+        uint pixel = display_pixel(vec4(radiance, alpha), push.display_scale);
+        display_out[place] = place == point.index ? pixel : 1u; // behind the end anything but zero
+    } else {
+        radiance_out[place] = vec4(radiance, alpha);
     }
-    radiance_out[point.index] = vec4(radiance, alpha);
-    leave_sign(radiance);
 }
 
 #endif

@@ -81,9 +81,8 @@ SHARED_SIZE(SurfacePoint, 48)
 struct Counters {
     uint stopped[4];
     uint first[4]; // complement of the lowest index into the picture or the list of points; 0 where none was stopped
-    uint guard[4];  // indirect dispatch of the guard: the first is 0 until a pass stored what is not finite
 };
-SHARED_SIZE(Counters, 48)
+SHARED_SIZE(Counters, 32)
 
 // What the surface pass needs of a metallic-roughness material to map it at every pixel.
 struct SurfaceRecord {
@@ -116,7 +115,7 @@ SHARED_SIZE(DrawRecord, 128)
 
 // Push constants of the shade kernels.
 struct ShadeRecord {
-    uint point_count;  // with SOURCE_POINTS
+    uint point_count;  // or of pixels; behind as many lies what was not finite (shade/guard.glsl)
     uint tile_capacity; // tiles a class's list can hold
     uint batch;        // of a progressive reference, counted from 0
     uint batch_size;   // samples in a batch

@@ -262,7 +262,6 @@ void add_pass_lines(Plan& plan) {
     for (size_t k = 0; k < plan.classes.size(); ++k)
         plan.passes.push_back({message(is_reference ? "reference " : "shade ", k), plan.classes[k].reason});
     if (plan.has_background) add("background", "the environment where no object is");
-    add("guard", "blackens and counts what is not finite, where there is any");
     if (plan.settings.spp > 1) add("accumulate", message("mean of ", plan.settings.spp, " pictures"));
     add("read back", "picture, depth and normals to the host");
 }

@@ -7,7 +7,6 @@
 #include "spirv/shade_background_comp.h"
 #include "spirv/shade_classify_tiles_comp.h"
 #include "spirv/shade_finish_tiles_comp.h"
-#include "spirv/shade_guard_comp.h"
 #include "spirv/shade_lookups_alone_comp.h"
 #include "spirv/shade_reference_comp.h"
 #include "spirv/shade_shade_buffer_comp.h"
@@ -30,7 +29,6 @@ const std::map<std::string, std::span<const uint32_t>>& spirv() {
         {"shade/background.comp", shade_background_comp_spv},
         {"shade/classify_tiles.comp", shade_classify_tiles_comp_spv},
         {"shade/finish_tiles.comp", shade_finish_tiles_comp_spv},
-        {"shade/guard.comp", shade_guard_comp_spv},
         {"shade/reference.comp", shade_reference_comp_spv},
         {"shade/shade_buffer.comp", shade_shade_buffer_comp_spv},
         {"shade/shade_constant.comp", shade_shade_constant_comp_spv},

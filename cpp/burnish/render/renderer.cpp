@@ -89,6 +89,16 @@ Frame Renderer::render(const Scene& scene, const Camera& camera, const RenderSet
 
 Frame Renderer::draw(const Scene& scene, const Camera& camera, const RenderSettings& settings) {
     const Stopwatch wall;
+    const bool is_reference = std::holds_alternative<Reference>(settings.plan.sampler);
+    std::optional<Frame> frame = draw_once(scene, camera, settings, is_reference);
+    if (!frame) frame = draw_once(scene, camera, settings, true);
+    frame->report.wall_ms = wall.milliseconds();
+    return std::move(*frame);
+}
+
+std::optional<Frame> Renderer::draw_once(const Scene& scene, const Camera& camera,
+                                         const RenderSettings& settings, bool counts_non_finite) {
+    const Stopwatch watch;
     if (settings.width < 1 || settings.height < 1 || settings.width > 16384 || settings.height > 16384)
         throw std::invalid_argument(
             message("size: expected 1..16384 pixels each way, got ", settings.height, " x ", settings.width));
@@ -122,7 +132,7 @@ Frame Renderer::draw(const Scene& scene, const Camera& camera, const RenderSetti
     const bool is_fused = frame.has_display && spp == 1;
     const ShadeInputs inputs{&targets,          nullptr,           uint32_t(pixels),
                              &targets.radiance, &targets.counters, is_fused ? &targets.display : nullptr,
-                             display_scale};
+                             display_scale,     counts_non_finite};
     const SurfacePass surface(pipelines_, gpu_scene, scene, plan, targets);
     const ShadePass shade(pipelines_, plan, tables, maps, inputs, placeholders_,
                           reference ? &*reference : nullptr);
@@ -150,10 +160,8 @@ Frame Renderer::draw(const Scene& scene, const Camera& camera, const RenderSetti
         commands.end_pass();
     };
     frame.report.compile_ms = pipelines_.take_compile_ms();
-    frame.report.prepare_ms = wall.milliseconds() - frame.report.compile_ms;
+    frame.report.prepare_ms = watch.milliseconds() - frame.report.compile_ms;
 
-    const shared::Counters none = ShadePass::no_counts(uint32_t(pixels));
-    vulkan::upload(targets.counters, std::span(&none, 1));
     for (uint32_t picture = 0; picture < spp; ++picture) {
         shared::ViewRecord view =
             make_view(camera, settings.width, settings.height, filter_offset(picture, spp));
@@ -161,16 +169,14 @@ Frame Renderer::draw(const Scene& scene, const Camera& camera, const RenderSetti
         keep_clip_in_range(view, surface.clip_reach(view.clip_from_world));
         vulkan::upload(targets.view, std::span<const shared::ViewRecord>(&view, 1));
         vulkan::Commands commands(device_);
-        // Of a reference the guard sees what earlier frames left where objects are.
-        if (!plan.has_background || is_reference)
-            commands.fill_buffer(is_fused ? targets.display : targets.radiance, 0);
+        if (picture == 0) shade.record_start(commands);
+        if (!plan.has_background) shade.record_clear(commands);
         commands.begin_pass("surface");
         surface.record(commands, targets);
         commands.end_pass();
         shade.record_tiles(commands);
         if (!is_reference) shade.record_shade(commands, {});
         shade.record_background(commands);
-        shade.record_guard(commands);
         if (spp > 1 && !is_reference) record_accumulate(commands, picture);
         commands.submit();
         add_pass_times(times, commands.pass_times());
@@ -185,6 +191,7 @@ Frame Renderer::draw(const Scene& scene, const Camera& camera, const RenderSetti
         if (picture == 0 && (spp > 1 || !is_shared)) frame.read_surface();
         if (settings.progress && !is_reference) settings.progress((picture + 1.0) / spp, "pictures");
     }
+    if (shade.left_out_non_finite()) return std::nullopt;
     const Stopwatch read_watch;
     if (!is_shared && frame.has_display)
         frame.display_copy = vulkan::read_elements<uint32_t>(targets.display, pixels);
@@ -194,9 +201,8 @@ Frame Renderer::draw(const Scene& scene, const Camera& camera, const RenderSetti
     add_pass_times(times, {{"read back", read_watch.milliseconds()}});
     times.insert(times.end(), frame.report.passes.begin(), frame.report.passes.end());
     frame.report.passes = std::move(times);
-    add_stopped(frame.report, targets.counters);
+    if (counts_non_finite) add_stopped(frame.report, targets.counters);
     if (!is_shared) frame.targets.reset();
-    frame.report.wall_ms = wall.milliseconds();
     return frame;
 }
 

@@ -111,6 +111,9 @@ private:
         }
     }
     Frame draw(const Scene& scene, const Camera& camera, const RenderSettings& settings);
+    /// None if something that is not finite was met: then it must be counted.
+    std::optional<Frame> draw_once(const Scene& scene, const Camera& camera, const RenderSettings& settings,
+                                   bool counts_non_finite);
     std::vector<glm::vec3> shade_points(const std::shared_ptr<const Environment>& environment,
                                         const Material& material, const ShadePoints& points,
                                         const PlanSettings& settings, Report* report,

@@ -60,29 +60,28 @@ std::vector<glm::vec3> Renderer::shade_points(const std::shared_ptr<const Enviro
     const VkBufferUsageFlags storage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT;
     const vulkan::Buffer point_buffer =
         vulkan::make_buffer(device_, std::as_bytes(std::span(records)), storage);
-    const vulkan::Buffer radiance(device_, count * sizeof(glm::vec4), storage);
-    const shared::Counters none = ShadePass::no_counts(uint32_t(count));
-    const vulkan::Buffer counters = vulkan::make_buffer(device_, std::as_bytes(std::span(&none, 1)),
-                                                        storage | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT);
+    const vulkan::Buffer radiance(device_, (count + 1) * sizeof(glm::vec4), storage);
+    const vulkan::Buffer counters(device_, sizeof(shared::Counters), storage);
     std::optional<ReferenceBuffers> reference;
     if (std::holds_alternative<Reference>(plan.settings.sampler))
         reference = make_reference_buffers(scene, plan, count);
-    const ShadeInputs inputs{nullptr, &point_buffer, uint32_t(count), &radiance, &counters};
-    const ShadePass shade(pipelines_, plan, tables, maps, inputs, placeholders_,
-                          reference ? &*reference : nullptr);
     Report local = start_report(scene, plan, tables);
-    local.compile_ms = pipelines_.take_compile_ms();
-    if (reference) {
-        run_reference(plan, shade, *reference, count, progress, local);
-    } else {
+    ShadeInputs inputs{nullptr, &point_buffer, uint32_t(count), &radiance, &counters};
+    inputs.counts_non_finite = reference.has_value();
+    for (;; inputs.counts_non_finite = true) {
+        const ShadePass shade(pipelines_, plan, tables, maps, inputs, placeholders_,
+                              reference ? &*reference : nullptr);
         vulkan::Commands commands(device_);
-        shade.record_shade(commands, {});
-        shade.record_guard(commands);
+        shade.record_start(commands);
+        if (!reference) shade.record_shade(commands, {});
         commands.submit();
         add_pass_times(times, commands.pass_times());
+        if (reference) run_reference(plan, shade, *reference, count, progress, local);
+        if (!shade.left_out_non_finite()) break;
     }
+    local.compile_ms = pipelines_.take_compile_ms();
     const std::vector<glm::vec4> result = vulkan::read_elements<glm::vec4>(radiance, count);
-    add_stopped(local, counters);
+    if (inputs.counts_non_finite) add_stopped(local, counters);
     times.insert(times.end(), local.passes.begin(), local.passes.end());
     local.passes = std::move(times);
     local.wall_ms = wall.milliseconds();

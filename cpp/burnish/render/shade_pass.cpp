@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "burnish/error.h"
+#include "burnish/vulkan/transfer.h"
 #include "shared/constants.h"
 
 namespace burnish::render {
@@ -24,12 +25,16 @@ GroupRows fold_groups(uint64_t groups) {
 ShadePass::ShadePass(Pipelines& pipelines, const Plan& plan, const ShadeTables& tables,
                      const std::vector<std::shared_ptr<EnvironmentMaps>>& maps, const ShadeInputs& inputs,
                      const Placeholders& unused, const ReferenceBuffers* reference)
-    : tables_(tables), inputs_(inputs), unused_(unused), sampler_(pipelines.device(), {}) {
+    : tables_(tables), inputs_(inputs), unused_(unused), sampler_(pipelines.device(), {}),
+      output_(inputs.display ? inputs.display : inputs.radiance),
+      pixel_bytes_(inputs.display ? sizeof(uint32_t) : sizeof(glm::vec4)),
+      output_bytes_(inputs.point_count * pixel_bytes_) {
     const bool is_points = inputs.targets == nullptr;
     for (uint32_t k = 0; k < plan.classes.size(); ++k) {
         const ShadeTraits& traits = plan.classes[k].traits;
         vulkan::SpecializationConstants constants = common_constants(traits, k, is_points);
-        constants.set(shared::SPEC_IS_DISPLAY, inputs.display != nullptr);
+        constants.set(shared::SPEC_IS_DISPLAY, inputs.display != nullptr)
+            .set(shared::SPEC_COUNTS_NON_FINITE, inputs.counts_non_finite);
         if (reference) {
             constants.set(shared::SPEC_IS_QUADRATURE, reference->is_quadrature);
         } else {
@@ -44,7 +49,6 @@ ShadePass::ShadePass(Pipelines& pipelines, const Plan& plan, const ShadeTables& 
             make_stage(pipelines, shader, constants, k, maps[traits.map_set].get(), reference));
         classes_.back().name = message(reference ? "reference " : "shade ", k);
     }
-    guard_.push_back(make_stage(pipelines, "shade/guard.comp", {}, 0, nullptr, nullptr));
     if (is_points) return;
 
     const uint32_t background_class = uint32_t(plan.classes.size());
@@ -62,7 +66,8 @@ ShadePass::ShadePass(Pipelines& pipelines, const Plan& plan, const ShadeTables& 
         const bool is_turned = plan.environments[0]->rotation != glm::mat3(1.0f);
         constants.set(shared::SPEC_SHADE_CLASS, background_class)
             .set(shared::SPEC_HAS_MAP_ROTATION, is_turned)
-            .set(shared::SPEC_IS_DISPLAY, inputs.display != nullptr);
+            .set(shared::SPEC_IS_DISPLAY, inputs.display != nullptr)
+            .set(shared::SPEC_COUNTS_NON_FINITE, inputs.counts_non_finite);
         uint32_t map_set = 0;
         for (uint32_t k = 0; k < plan.map_sets.size(); ++k)
             if (plan.map_sets[k].face_size == plan.environments[0]->face_size()) map_set = k;
@@ -118,6 +123,7 @@ ShadePass::Stage ShadePass::make_stage(Pipelines& pipelines, const std::string& 
 }
 
 void ShadePass::dispatch(vulkan::Commands& commands, const Stage& stage, shared::ShadeRecord push) const {
+    push.point_count = inputs_.point_count;
     if (inputs_.targets) {
         push.tile_capacity = inputs_.targets->tile_capacity;
         push.display_scale = inputs_.display_scale;
@@ -125,7 +131,6 @@ void ShadePass::dispatch(vulkan::Commands& commands, const Stage& stage, shared:
                                    inputs_.targets->tile_counts, stage.shade_class * sizeof(glm::uvec4));
         return;
     }
-    push.point_count = inputs_.point_count;
     const GroupRows rows = fold_groups(group_count(inputs_.point_count));
     commands.dispatch(*stage.pipeline, stage.set, vulkan::push_bytes(push), rows.length, rows.count);
 }
@@ -165,22 +170,22 @@ void ShadePass::record_background(vulkan::Commands& commands) const {
     }
 }
 
-void ShadePass::record_guard(vulkan::Commands& commands) const {
-    const Stage& guard = guard_.front();
-    shared::ShadeRecord push{};
-    push.point_count = inputs_.point_count;
-    commands.begin_pass("guard");
-    commands.dispatch_indirect(*guard.pipeline, guard.set, vulkan::push_bytes(push), *inputs_.counters,
-                               offsetof(shared::Counters, guard));
-    commands.end_pass();
+void ShadePass::record_start(vulkan::Commands& commands) const {
+    commands.fill_buffer(*output_, 0, output_bytes_, pixel_bytes_);
+    commands.fill_buffer(*inputs_.counters, 0);
+    commands.barrier();
 }
 
-shared::Counters ShadePass::no_counts(uint32_t point_count) {
-    const GroupRows rows = fold_groups(group_count(point_count));
-    shared::Counters counters{};
-    counters.guard[1] = rows.length;
-    counters.guard[2] = rows.count;
-    return counters;
+void ShadePass::record_clear(vulkan::Commands& commands) const {
+    commands.fill_buffer(*output_, 0, 0, output_bytes_);
+    commands.barrier();
+}
+
+bool ShadePass::left_out_non_finite() const {
+    glm::uvec4 behind_end(0);
+    vulkan::read_back(*output_, std::as_writable_bytes(std::span(&behind_end, 1)).first(pixel_bytes_),
+                      output_bytes_);
+    return behind_end != glm::uvec4(0);
 }
 
 } // namespace burnish::render

@@ -20,10 +20,11 @@ struct ShadeInputs {
     FrameTargets* targets = nullptr;
     const vulkan::Buffer* points = nullptr;   ///< SurfacePoint each
     uint32_t point_count = 0;                 ///< or of pixels
-    const vulkan::Buffer* radiance = nullptr; ///< vec4 a pixel or point
+    const vulkan::Buffer* radiance = nullptr; ///< vec4 a pixel or point, and one more
     const vulkan::Buffer* counters = nullptr;
-    const vulkan::Buffer* display = nullptr; ///< a byte a channel and pixel: then nothing goes to `radiance`
+    const vulkan::Buffer* display = nullptr; ///< a byte a channel, likewise: then nothing goes to `radiance`
     float display_scale = 1.0f;
+    bool counts_non_finite = false; ///< and blackens; else it is only found out that there was some
 };
 
 /// Buffers that only a reference needs.
@@ -61,10 +62,12 @@ public:
     /// One pass for each class, and one for the background. `push` is completed with what the inputs say.
     void record_shade(vulkan::Commands& commands, shared::ShadeRecord push) const;
     void record_background(vulkan::Commands& commands) const;
-    /// Blackens and counts what shading and the background left that is not finite.
-    void record_guard(vulkan::Commands& commands) const;
-    /// What the counters must be before anything runs.
-    static shared::Counters no_counts(uint32_t point_count);
+    /// Once, before all others: nothing that is not finite was met or counted.
+    void record_start(vulkan::Commands& commands) const;
+    /// Blackens the picture: what no pass will draw.
+    void record_clear(vulkan::Commands& commands) const;
+    /// Whether something that is not finite was met and, as it was not to be counted, left out.
+    bool left_out_non_finite() const;
 
 private:
     struct Stage {
@@ -86,7 +89,8 @@ private:
     std::vector<Stage> classes_;
     std::vector<Stage> background_;
     std::vector<Stage> tile_stages_;
-    std::vector<Stage> guard_;
+    const vulkan::Buffer* output_;
+    VkDeviceSize pixel_bytes_, output_bytes_; // the latter without the pixel behind its end
 };
 
 } // namespace burnish::render

@@ -127,15 +127,15 @@ FrameTargets::FrameTargets(const vulkan::DevicePointer& device, uint32_t width_p
     // A CPU device shades straight into memory that the host reads.
     const vulkan::MemoryUse use =
         device->info().is_software ? vulkan::MemoryUse::read_back : vulkan::MemoryUse::device;
+    // One more pixel, for what is not finite (glsl/shade/guard.glsl).
     const bool has_radiance = has_sum || !has_display;
-    radiance = vulkan::Buffer(device, (has_radiance ? pixels : 1) * sizeof(glm::vec4), storage, use);
-    display = vulkan::Buffer(device, (has_display ? pixels : 1) * sizeof(uint32_t), storage, use);
+    radiance = vulkan::Buffer(device, (has_radiance ? pixels + 1 : 1) * sizeof(glm::vec4), storage, use);
+    display = vulkan::Buffer(device, (has_display ? pixels + 1 : 1) * sizeof(uint32_t), storage, use);
     sum = vulkan::Buffer(device, (has_sum ? pixels : 1) * sizeof(glm::vec4), storage, use);
     tiles = vulkan::Buffer(device, VkDeviceSize(class_count) * tile_capacity * sizeof(uint32_t), storage);
     tile_counts = vulkan::Buffer(device, class_count * sizeof(glm::uvec4),
                                  storage | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT);
-    counters =
-        vulkan::Buffer(device, sizeof(shared::Counters), storage | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT);
+    counters = vulkan::Buffer(device, sizeof(shared::Counters), storage);
     view = vulkan::Buffer(device, sizeof(shared::ViewRecord),
                           storage | VK_BUFFER_USAGE_STORAGE_TEXEL_BUFFER_BIT);
     view_rows = vulkan::texel_view(view, VK_FORMAT_R32G32B32A32_UINT);

@@ -20,9 +20,9 @@ struct FrameTargets {
     vulkan::Image depth;      ///< D32, reverse z
     vulkan::Image varying_diffuse, varying_specular, varying_emissive,
         varying_coat;           ///< one texel unless has_varying
-    vulkan::Buffer radiance;    ///< vec4 a pixel; one where display output needs no sum
+    vulkan::Buffer radiance;    ///< vec4 a pixel and one more; one where display output needs no sum
     vulkan::Buffer sum;         ///< vec4 a pixel, with accumulation; else one
-    vulkan::Buffer display;     ///< a byte a channel and pixel, with display output; else one pixel
+    vulkan::Buffer display;     ///< a byte a channel, a pixel and one more, with display output; else one
     vulkan::Buffer tiles;       ///< per class, room for all tiles
     vulkan::Buffer tile_counts; ///< uvec4 a class
     vulkan::Buffer counters;

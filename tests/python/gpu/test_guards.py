@@ -64,6 +64,26 @@ def test_guard_counts_pixels_and_names_the_first(bright, sampler, device):
         burnish.render(scene, size=(20, 24), sampler=sampler, device=device, strict=True)
 
 
+@pytest.mark.parametrize("spp", [1, 4])
+def test_guard_counts_in_display_output(bright, device, spp):
+    scene = burnish.Scene.sphere(overflowing())
+    scene.environment = bright
+    arguments = {"size": (20, 24), "sampler": burnish.Regular(5), "device": device, "spp": spp}
+    linear = burnish.render(scene, **arguments)
+    frame = burnish.render(scene, output="display", **arguments)
+    assert frame.report.stopped == linear.report.stopped
+    assert not frame.display[10, 12, :3].any() and frame.display[10, 12, 3] == 255
+
+
+def test_finite_values_whose_sum_overflows_are_not_stopped(bright, device):
+    scene = burnish.Scene.sphere(burnish.Material(lobes=[burnish.KurtLobe(roughness=0.1, weight=1e35)]))
+    scene.environment = bright
+    frame = burnish.render(scene, size=(20, 24), sampler=burnish.Matched(5), device=device, strict=True)
+    middle = frame.color[10, 12, :3].astype(np.float64)
+    assert 1.5e38 < middle.min() and middle.sum() > np.finfo(np.float32).max
+    assert frame.report.stopped == []
+
+
 def test_finite_pictures_stop_nothing_in_strict_mode(bright, device):
     scene = burnish.Scene.sphere(burnish.Material(lobes=[burnish.KurtLobe(roughness=0.2)]))
     scene.environment = bright

@@ -62,10 +62,16 @@ def mismatches(expected, shader, binary):
 
 @pytest.fixture(scope="module")
 def shaders():
+    glsl = REPOSITORY / "glsl"
+    # A build folder keeps modules whose sources are gone.
+    sources = {
+        str(path.relative_to(glsl).with_suffix("")).replace("/", "_").replace(".", "_")
+        for path in glsl.rglob("*.glsl")
+    }
     folder = os.environ.get("BURNISH_SPIRV_DIR")
     candidates = [Path(folder)] if folder else sorted(REPOSITORY.glob("build/*/spirv"))
     for candidate in candidates:
-        found = sorted(candidate.rglob("*.spv"))
+        found = sorted(path for path in candidate.rglob("*.spv") if path.stem in sources)
         if found:
             return found
     pytest.fail(
