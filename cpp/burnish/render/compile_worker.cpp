@@ -2,8 +2,20 @@
 
 #include <algorithm>
 #include <iterator>
+#include <sys/resource.h>
+#include <unistd.h>
 
 namespace burnish::render {
+namespace {
+
+/// Pictures that a CPU draws meanwhile come first.
+void step_back() {
+#ifdef __linux__ // elsewhere it would be all threads of the process
+    setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), 10);
+#endif
+}
+
+} // namespace
 
 CompileWorker::~CompileWorker() {
     {
@@ -39,6 +51,7 @@ void CompileWorker::raise_error() {
 }
 
 void CompileWorker::run() {
+    step_back();
     std::unique_lock lock(mutex_);
     while (true) {
         wake_.wait(lock, [&] { return is_closing_ || !waiting_.empty(); });

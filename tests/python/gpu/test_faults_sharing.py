@@ -5,11 +5,11 @@ import threading
 
 import numpy as np
 import pytest
-from process_support import finish, start
 
 import burnish
 from burnish import builtin
 from burnish.environments import spots
+from process_support import finish, start
 
 SIZE = (24, 32)
 
