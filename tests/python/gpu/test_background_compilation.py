@@ -95,6 +95,9 @@ def test_roughnesses_share_the_pipeline_that_reads_a_buffer(background):
     second = draw(background, material(0.21))
     assert tables(second) == ["buffer"]
     assert not has_waited(second)
+    brushed = [draw(background, material((float(m), 0.1))) for m in np.linspace(0.15, 0.6, 20)]
+    assert {"14", "15", "16"} <= {frame.report.samples_used for frame in brushed}
+    assert sum(map(has_waited, brushed)) <= 2
 
 
 def test_display_output_has_a_pipeline_of_its_own(device, background):
@@ -238,6 +241,11 @@ FORKED = """
 """
 
 
-@pytest.mark.parametrize("rest", [CLOSED, FORKED], ids=["closed", "forked"])
-def test_a_device_may_be_closed_or_forked_while_it_compiles(device, rest):
-    assert finish(start(SETUP + rest, device.name)) == "done"
+REST = """
+    device.finish_compiling()
+"""
+
+
+@pytest.mark.parametrize("end", [CLOSED, FORKED, REST + FORKED], ids=["closed", "forked", "forked at rest"])
+def test_a_device_may_be_closed_or_forked_while_its_thread_lives(device, end):
+    assert finish(start(SETUP + end, device.name)) == "done"
