@@ -261,7 +261,7 @@ void bind_render(py::module_& m) {
             settings.height = 1080;
             settings.plan.sampler = sampler;
             settings.plan.has_lookups = has_lookups;
-            settings.plan.has_constants = has_constants;
+            if (!has_constants) settings.plan.sample_source = SampleSource::loop;
             return report_dict(renderer.render(scene, camera, settings).report);
         },
         py::arg("device"), py::arg("scene"), py::arg("camera"), py::arg("sampler"), py::arg("has_lookups"),

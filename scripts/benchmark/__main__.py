@@ -10,6 +10,7 @@ from pathlib import Path
 from . import scaling
 from .bench import Bench
 from .compare import SLOWER, compare, read_run, table
+from .compilation import bench_compilation
 from .effects import bench_effects
 from .guards import bench_guards
 from .hand_loop import bench_loop
@@ -28,6 +29,7 @@ PARTS: dict[str, tuple[Callable[[Bench], None], str]] = {
     "maps": (bench_maps, "levels that Matched and Prefiltered read"),
     "display": (bench_display, "8-bit sRGB made on the device or in numpy"),
     "pyramids": (bench_pyramids, "pyramids by three filters"),
+    "compile": (bench_compilation, "the first picture of a roughness, waiting for its pipeline or not"),
     "guards": (bench_guards, "shading with and without looking for values that are not finite"),
     "effects": (bench_effects, "every effect absent, present but zero, present"),
 }

@@ -88,6 +88,18 @@ std::string why_at_every_point(const ShadeTraits& traits, const std::vector<cons
     return "tables by view of so many brushed lobes would take too much memory";
 }
 
+std::string why_from_buffer(const ShadeTraits& traits, const PlanSettings& settings, size_t constant_count) {
+    if (traits.lobe_count > 1) return "several lobes";
+    if (!fits_into_constants(settings.sampler)) return "too many samples for constants";
+    if (settings.sample_source == SampleSource::buffer)
+        return "the pipeline that has them as constants is being compiled";
+    if (settings.sample_source == SampleSource::loop) return "read in a loop for a benchmark";
+    if (constant_count > MAX_CONSTANT_CLASSES)
+        return message(constant_count, " roughnesses in the picture, more than ", MAX_CONSTANT_CLASSES,
+                       " worth a pipeline each");
+    return "too many kinds of material in the picture for a pipeline each";
+}
+
 } // namespace
 
 bool has_texture(const Material& material, TextureUse MetallicRoughness::*which) {
@@ -123,8 +135,9 @@ std::string describe(const ShadeClass& one, const Scene& scene, const Plan& plan
         if (std::find(some.begin(), some.end(), material) == some.end()) some.push_back(material);
     }
     std::string text = listed(visible_materials(scene), some);
-    const char* const loop =
-        unrolls_samples(plan.settings, one.traits) ? "" : "; in a loop, too many samples to be written out";
+    const bool is_loop_chosen =
+        unrolls_samples(plan.settings, one.traits) || plan.settings.sample_source == SampleSource::loop;
+    const char* const loop = is_loop_chosen ? "" : "; in a loop, too many samples to be written out";
     switch (one.traits.table) {
     case TableForm::none:
         break;
@@ -133,13 +146,8 @@ std::string describe(const ShadeClass& one, const Scene& scene, const Plan& plan
                         "), its samples are constants");
         break;
     case TableForm::buffer:
-        if (one.traits.lobe_count > 1)
-            text += message("; several lobes, samples from a buffer", loop);
-        else if (constant_count > MAX_CONSTANT_CLASSES)
-            text += message("; ", constant_count, " roughnesses in the picture, more than ",
-                            MAX_CONSTANT_CLASSES, " worth a pipeline each, samples from a buffer", loop);
-        else
-            text += message("; too many samples for constants, samples from a buffer", loop);
+        text += message("; ", why_from_buffer(one.traits, plan.settings, constant_count),
+                        ", samples from a buffer", loop);
         break;
     case TableForm::scaled:
         text += message("; roughness varies over the surface, samples scale with it", loop);

@@ -78,15 +78,6 @@ uint32_t map_set_of(const Plan& plan, uint32_t environment) {
     throw std::logic_error("plan: an environment without a map set");
 }
 
-bool fits_into_constants(const Sampler& sampler) {
-    const auto fits = [](uint32_t samples) { return samples + samples / 4 <= shared::MAX_CONSTANT_SAMPLES; };
-    if (const auto* regular = std::get_if<Regular>(&sampler))
-        return fits(regular->samples); // the pattern may exceed its budget
-    if (const auto* importance = std::get_if<Importance>(&sampler))
-        return importance->samples <= shared::MAX_CONSTANT_SAMPLES;
-    return false;
-}
-
 /// Slope from which a component of a mixture bends so much that its mean takes five points instead of two.
 constexpr float WIDE_LOBE = 0.2f;
 
@@ -159,7 +150,7 @@ ShadeTraits traits_of(const Scene& scene, const Plan& plan, const MaterialInstan
         traits.table = TableForm::prefiltered;
     } else if (traits.has_varying) {
         traits.table = TableForm::scaled;
-    } else if (plan.settings.has_constants && traits.lobe_count == 1 &&
+    } else if (plan.settings.sample_source == SampleSource::constants && traits.lobe_count == 1 &&
                fits_into_constants(plan.settings.sampler)) {
         traits.table = TableForm::constant;
         traits.roughness = material.lobes[0].roughness;
@@ -228,8 +219,17 @@ void add_classes(const Scene& scene, Plan& plan) {
 
 } // namespace
 
+bool fits_into_constants(const Sampler& sampler) {
+    const auto fits = [](uint32_t samples) { return samples + samples / 4 <= shared::MAX_CONSTANT_SAMPLES; };
+    if (const auto* regular = std::get_if<Regular>(&sampler))
+        return fits(regular->samples); // the pattern may exceed its budget
+    if (const auto* importance = std::get_if<Importance>(&sampler))
+        return importance->samples <= shared::MAX_CONSTANT_SAMPLES;
+    return false;
+}
+
 bool unrolls_samples(const PlanSettings& settings, const ShadeTraits& traits) {
-    if (!settings.has_constants) return false;
+    if (settings.sample_source == SampleSource::loop) return false;
     if (traits.table != TableForm::buffer && traits.table != TableForm::scaled) return false;
     const auto* regular = std::get_if<Regular>(&settings.sampler);
     const uint32_t samples = regular ? regular->samples : std::get<Importance>(settings.sampler).samples;

@@ -17,13 +17,17 @@
 
 namespace burnish {
 
+/// Where samples that a roughness fixes are read from: constants of the pipeline where they fit; a buffer,
+/// which all roughnesses share, while such a pipeline is compiled; a buffer in a loop, for benchmarks.
+enum class SampleSource { constants, buffer, loop };
+
 struct PlanSettings {
     Sampler sampler = Regular{};
     uint32_t spp = 1;
     PyramidFilter filter = PyramidFilter::gauss6;
-    bool has_lookups = true;   ///< false for benchmarks: shading alone, the picture means nothing
-    bool has_constants = true; ///< false for benchmarks: sample tables are read from a buffer, in a loop
-    bool has_lobes = true;     ///< false for captured maps: diffuse, emission and the far environment only
+    bool has_lookups = true; ///< false for benchmarks: shading alone, the picture means nothing
+    SampleSource sample_source = SampleSource::constants;
+    bool has_lobes = true; ///< false for captured maps: diffuse, emission and the far environment only
     std::optional<float> display_exposure; ///< stops; of 8-bit sRGB in place of linear radiance
     LookupChoice lookup;
 };
@@ -130,6 +134,9 @@ struct Plan {
 
 /// More constant tables than this are read from a buffer instead: each is a pipeline to compile.
 constexpr size_t MAX_CONSTANT_CLASSES = 6;
+
+/// Whether the samples of one lobe can be constants of a pipeline.
+bool fits_into_constants(const Sampler& sampler);
 
 /// Whether tables that are read from a buffer are read without a loop: where all lookups of a point are few.
 bool unrolls_samples(const PlanSettings& settings, const ShadeTraits& traits);

@@ -1,7 +1,8 @@
 #include "burnish/render/pipelines.h"
 
-#include <span>
+#include <algorithm>
 #include <stdexcept>
+#include <vector>
 
 #include "spirv/resolve_accumulate_comp.h"
 #include "spirv/shade_background_comp.h"
@@ -45,6 +46,9 @@ const std::map<std::string, std::span<const uint32_t>>& spirv() {
 
 } // namespace
 
+Pipelines::Pipelines(vulkan::DevicePointer device)
+    : device_(std::move(device)), worker_([this](const ComputeKey& key) { compile_meanwhile(key); }) {}
+
 const vulkan::Shader& Pipelines::find_shader(const std::string& name) {
     const auto found = shaders_.find(name);
     if (found != shaders_.end()) return found->second;
@@ -68,6 +72,31 @@ const vulkan::ComputePipeline& Pipelines::compute(const std::string& name,
         compile_ms_ += found->second.compile_ms();
     }
     return found->second;
+}
+
+bool Pipelines::request(std::span<const ComputeKey> keys) {
+    worker_.raise_error();
+    std::vector<ComputeKey> missing;
+    {
+        const std::lock_guard lock(mutex_);
+        std::copy_if(keys.begin(), keys.end(), std::back_inserter(missing),
+                     [&](const ComputeKey& key) { return !compute_.contains(key); });
+    }
+    if (!missing.empty()) worker_.want(missing);
+    return missing.empty();
+}
+
+/// Callers may use and compile other pipelines at the same time.
+void Pipelines::compile_meanwhile(const ComputeKey& key) {
+    const vulkan::Shader* shader = nullptr;
+    {
+        const std::lock_guard lock(mutex_);
+        if (compute_.contains(key)) return;
+        shader = &find_shader(key.first);
+    }
+    vulkan::ComputePipeline pipeline(device_, *shader, key.second);
+    const std::lock_guard lock(mutex_);
+    compute_.emplace(key, std::move(pipeline));
 }
 
 const vulkan::GraphicsPipeline& Pipelines::graphics(const std::string& vertex, const std::string& fragment,

@@ -19,12 +19,22 @@ constexpr uint64_t MOST_OTHER_SCENE_BYTES = 256 << 20;
 
 } // namespace
 
-Renderer::Renderer(std::shared_ptr<vulkan::Device> device, std::optional<MapLookup> lookup)
+Renderer::Renderer(std::shared_ptr<vulkan::Device> device, const RendererSettings& settings)
     : device_(std::move(device)),
-      lookup_(choose_lookup(device_->info().is_software, lookup, device_->limits().maxTexelBufferElements,
+      lookup_(choose_lookup(device_->info().is_software, settings.lookup,
+                            device_->limits().maxTexelBufferElements,
                             device_->limits().maxStorageBufferRange / sizeof(glm::uvec4))),
-      pipelines_(device_), map_tools_(device_), placeholders_(device_),
+      compilation_(settings.compilation), pipelines_(device_), map_tools_(device_), placeholders_(device_),
       targets_(std::make_shared<TargetPool>(device_)) {}
+
+std::shared_ptr<Renderer> Renderer::open(std::shared_ptr<vulkan::Device> device,
+                                         const RendererSettings& settings) {
+    // Another thread may have been in the driver, or compiling, at the fork: its locks are never let go
+    // there.
+    return {new Renderer(std::move(device), settings), [](Renderer* renderer) {
+                if (!renderer->device_->is_forked()) delete renderer;
+            }};
+}
 
 std::unique_lock<std::mutex> Renderer::enter() {
     device_->require_usable(); // before the mutex, which a fork may have left locked
@@ -39,12 +49,6 @@ void Renderer::forget() {
     map_tools_.free();
     targets_->clear();
     tables_.forget_buffers();
-}
-
-Plan Renderer::make_plan(const Scene& scene, const PlanSettings& settings) {
-    PlanSettings with_lookup = settings;
-    with_lookup.lookup = lookup_;
-    return burnish::make_plan(scene, with_lookup, suns_);
 }
 
 void Renderer::forget_old_scenes() {
@@ -104,7 +108,9 @@ std::optional<Frame> Renderer::draw_once(const Scene& scene, const Camera& camer
             message("size: expected 1..16384 pixels each way, got ", settings.height, " x ", settings.width));
     pipelines_.take_compile_ms();
     GpuScene& gpu_scene = prepare_scene(scene);
-    const Plan plan = make_plan(scene, settings.plan);
+    const bool is_fused = settings.plan.display_exposure && settings.plan.spp == 1;
+    const auto [plan, tables] = plan_shading(
+        scene, settings.plan, {.is_display = is_fused, .counts_non_finite = counts_non_finite});
 
     Frame frame;
     frame.width = settings.width;
@@ -112,7 +118,6 @@ std::optional<Frame> Renderer::draw_once(const Scene& scene, const Camera& camer
     frame.camera = camera;
     std::vector<vulkan::PassTime> times;
     const std::vector<std::shared_ptr<EnvironmentMaps>> maps = prepare_maps(plan, times);
-    const ShadeTables tables = make_shade_tables(device_, scene, plan, tables_);
     frame.has_display = plan.settings.display_exposure.has_value();
     frame.targets = targets_->take(settings.width, settings.height, plan.has_varying, plan.settings.spp > 1,
                                    frame.has_display, uint32_t(plan.classes.size()) + 1);
@@ -129,7 +134,6 @@ std::optional<Frame> Renderer::draw_once(const Scene& scene, const Camera& camer
     if (is_reference) reference = make_reference_buffers(scene, plan, pixels);
     const uint32_t spp = plan.settings.spp;
     const float display_scale = std::exp2(plan.settings.display_exposure.value_or(0.0f));
-    const bool is_fused = frame.has_display && spp == 1;
     const ShadeInputs inputs{&targets,          nullptr,           uint32_t(pixels),
                              &targets.radiance, &targets.counters, is_fused ? &targets.display : nullptr,
                              display_scale,     counts_non_finite};

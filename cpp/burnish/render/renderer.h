@@ -39,15 +39,30 @@ struct ShadePoints {
     std::span<const glm::vec3> views; ///< toward the eye
 };
 
+/// What a picture does that needs a pipeline with its samples as constants: wait until it is compiled; or
+/// read the samples from a buffer, by a pipeline that all roughnesses share, while a thread compiles it.
+enum class Compilation { wait, background };
+
+struct RendererSettings {
+    std::optional<MapLookup> lookup; ///< none for what is best on the device
+    Compilation compilation = Compilation::wait;
+};
+
 /// Keeps what later frames can use again: pipelines, scenes, maps, tables. One call at a time; calls from
 /// several threads wait for each other.
 class Renderer {
 public:
-    /// `lookup`: how maps are read, none for what is best on the device.
-    explicit Renderer(std::shared_ptr<vulkan::Device> device, std::optional<MapLookup> lookup = {});
+    explicit Renderer(std::shared_ptr<vulkan::Device> device, const RendererSettings& settings = {});
+    /// One that a fork, which has no thread and no driver behind it, may drop without harm.
+    static std::shared_ptr<Renderer> open(std::shared_ptr<vulkan::Device> device,
+                                          const RendererSettings& settings);
 
     const std::shared_ptr<vulkan::Device>& device() const { return device_; }
     const LookupChoice& lookup() const { return lookup_; }
+    Compilation compilation() const { return compilation_; }
+
+    /// Waits until no pipeline is left to be compiled in the background. Errors are the next picture's.
+    void finish_compiling();
 
     /// Throws std::invalid_argument for a scene or settings that make no sense, VulkanError if the device
     /// fails.
@@ -121,6 +136,12 @@ private:
     std::vector<std::shared_ptr<EnvironmentMaps>> prepare_maps(const Plan& plan,
                                                                std::vector<vulkan::PassTime>& times);
     Plan make_plan(const Scene& scene, const PlanSettings& settings);
+    struct ShadePlan {
+        Plan plan;
+        ShadeTables tables;
+    };
+    /// As `settings` ask for, or what can be drawn until that is compiled.
+    ShadePlan plan_shading(const Scene& scene, const PlanSettings& settings, ShadeTarget target);
     /// Makes room for one more.
     void forget_old_scenes();
     GpuScene& prepare_scene(const Scene& scene);
@@ -135,6 +156,7 @@ private:
 
     std::shared_ptr<vulkan::Device> device_;
     LookupChoice lookup_;
+    Compilation compilation_;
     std::mutex mutex_;
     Pipelines pipelines_;
     MapTools map_tools_;

@@ -47,10 +47,9 @@ std::vector<glm::vec3> Renderer::shade_points(const std::shared_ptr<const Enviro
     scene.materials = {material};
     scene.materials[0].source.reset(); // points carry no texture coordinates: its factors hold everywhere
     scene.objects.emplace_back();
-    const Plan plan = make_plan(scene, settings);
+    const auto [plan, tables] = plan_shading(scene, settings, {.is_points = true});
     std::vector<vulkan::PassTime> times;
     const std::vector<std::shared_ptr<EnvironmentMaps>> maps = prepare_maps(plan, times);
-    const ShadeTables tables = make_shade_tables(device_, scene, plan, tables_);
 
     std::vector<shared::SurfacePoint> records(count);
     for (size_t k = 0; k < count; ++k)

@@ -31,22 +31,11 @@ ShadePass::ShadePass(Pipelines& pipelines, const Plan& plan, const ShadeTables& 
       output_bytes_(inputs.point_count * pixel_bytes_) {
     const bool is_points = inputs.targets == nullptr;
     for (uint32_t k = 0; k < plan.classes.size(); ++k) {
-        const ShadeTraits& traits = plan.classes[k].traits;
-        vulkan::SpecializationConstants constants = common_constants(traits, k, is_points);
-        constants.set(shared::SPEC_IS_DISPLAY, inputs.display != nullptr)
-            .set(shared::SPEC_COUNTS_NON_FINITE, inputs.counts_non_finite);
-        if (reference) {
-            constants.set(shared::SPEC_IS_QUADRATURE, reference->is_quadrature);
-        } else {
-            add_pattern_constants(constants, traits, plan.settings, tables.class_tables[k],
-                                  tables.class_counts[k]);
-            constants.set(shared::SPEC_SAMPLE_TABLE_IS_STORED,
-                          tables.samples->elements.access() == vulkan::ElementAccess::storage);
-        }
-        add_lookup_constants(constants, plan.map_sets[traits.map_set]);
-        const std::string shader = reference ? "shade/reference.comp" : shader_of(traits.table);
-        classes_.push_back(
-            make_stage(pipelines, shader, constants, k, maps[traits.map_set].get(), reference));
+        const ShadeTarget target{is_points, inputs.display != nullptr, inputs.counts_non_finite};
+        const auto [shader, constants] = reference ? reference_key(plan, k, target, reference->is_quadrature)
+                                                   : shade_key(plan, tables, k, target);
+        const EnvironmentMaps* map_set = maps[plan.classes[k].traits.map_set].get();
+        classes_.push_back(make_stage(pipelines, shader, constants, k, map_set, reference));
         classes_.back().name = message(reference ? "reference " : "shade ", k);
     }
     if (is_points) return;

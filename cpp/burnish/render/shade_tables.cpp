@@ -30,6 +30,11 @@ bool needs_albedo(const Sampler& sampler) {
            std::holds_alternative<Matched>(sampler) || std::holds_alternative<Prefiltered>(sampler);
 }
 
+/// Kernels read samples in phases of four.
+uint32_t whole_phases(uint32_t samples) {
+    return (samples + 3) / 4 * 4;
+}
+
 float mean(glm::vec3 v) {
     return (v.r + v.g + v.b) / 3.0f;
 }
@@ -59,8 +64,7 @@ public:
         if (found == ranges_.end()) {
             const uint32_t used = uint32_t(table.entries.size());
             auto entries = std::make_shared<std::vector<glm::vec4>>(table.entries);
-            entries->resize(std::max((used + 3) / 4 * 4, count),
-                            glm::vec4(0.0f)); // kernels read whole phases
+            entries->resize(std::max(whole_phases(used), count), glm::vec4(0.0f));
             found = ranges_.emplace(key, Range{append(std::move(entries)), used}).first;
         }
         return found->second;
@@ -159,6 +163,11 @@ std::vector<uint32_t> unrolled_counts(const Scene& scene, const Plan& plan, Tabl
             count = std::max(count, uint32_t(table.entries.size()));
         }
     }
+    // What stands in for constants is for all roughnesses, and brushed lobes have a few samples more or less
+    // with each. Several lobes never are constants: they keep the pipeline that they have anyway.
+    if (plan.settings.sample_source == SampleSource::buffer)
+        for (size_t k = 0; k < counts.size(); ++k)
+            if (plan.classes[k].traits.lobe_count == 1) counts[k] = whole_phases(counts[k]);
     return counts;
 }
 

@@ -61,8 +61,6 @@ uint32_t normalization_of(const Sampler& sampler, TableForm form) {
                                                               : shared::NORMALIZATION_PROJECTED;
 }
 
-} // namespace
-
 const char* shader_of(TableForm form) {
     switch (form) {
     case TableForm::none:
@@ -81,10 +79,13 @@ const char* shader_of(TableForm form) {
     return "shade/shade_constant.comp";
 }
 
-vulkan::SpecializationConstants common_constants(const ShadeTraits& traits, uint32_t shade_class,
-                                                 bool is_points) {
+/// What kernels of the plan's samplers and of the reference share.
+vulkan::SpecializationConstants common_constants(const Plan& plan, uint32_t shade_class, ShadeTarget target) {
+    const ShadeTraits& traits = plan.classes[shade_class].traits;
     vulkan::SpecializationConstants constants;
-    constants.set(shared::SPEC_SOURCE, is_points ? shared::SOURCE_POINTS : shared::SOURCE_PIXELS)
+    constants.set(shared::SPEC_SOURCE, target.is_points ? shared::SOURCE_POINTS : shared::SOURCE_PIXELS)
+        .set(shared::SPEC_IS_DISPLAY, target.is_display)
+        .set(shared::SPEC_COUNTS_NON_FINITE, target.counts_non_finite)
         .set(shared::SPEC_LOBE_COUNT, traits.lobe_count)
         .set(shared::SPEC_CONSERVES_ENERGY, traits.conserves_energy)
         .set(shared::SPEC_HAS_TANGENT, traits.has_tangent)
@@ -94,9 +95,11 @@ vulkan::SpecializationConstants common_constants(const ShadeTraits& traits, uint
         .set(shared::SPEC_HAS_COAT, traits.has_coat)
         .set(shared::SPEC_HAS_MAP_ROTATION, traits.has_map_rotation)
         .set(shared::SPEC_SHADE_CLASS, shade_class);
+    add_lookup_constants(constants, plan.map_sets[traits.map_set]);
     return constants;
 }
 
+/// `table`: of constant form; `buffer_count`: samples of each lobe in buffer or scaled form, 0 for a loop.
 void add_pattern_constants(vulkan::SpecializationConstants& constants, const ShadeTraits& traits,
                            const PlanSettings& settings, const SampleTable& table, uint32_t buffer_count) {
     const Sampler& sampler = settings.sampler;
@@ -119,6 +122,24 @@ void add_pattern_constants(vulkan::SpecializationConstants& constants, const Sha
     for (uint32_t k = 0; k < table.entries.size(); ++k)
         for (uint32_t c = 0; c < 4; ++c)
             constants.set(shared::SPEC_SAMPLES + 4 * k + c, table.entries[k][int(c)]);
+}
+
+} // namespace
+
+ComputeKey shade_key(const Plan& plan, const ShadeTables& tables, uint32_t shade_class, ShadeTarget target) {
+    const ShadeTraits& traits = plan.classes[shade_class].traits;
+    vulkan::SpecializationConstants constants = common_constants(plan, shade_class, target);
+    add_pattern_constants(constants, traits, plan.settings, tables.class_tables[shade_class],
+                          tables.class_counts[shade_class]);
+    constants.set(shared::SPEC_SAMPLE_TABLE_IS_STORED,
+                  tables.samples->elements.access() == vulkan::ElementAccess::storage);
+    return {shader_of(traits.table), constants};
+}
+
+ComputeKey reference_key(const Plan& plan, uint32_t shade_class, ShadeTarget target, bool is_quadrature) {
+    vulkan::SpecializationConstants constants = common_constants(plan, shade_class, target);
+    constants.set(shared::SPEC_IS_QUADRATURE, is_quadrature);
+    return {"shade/reference.comp", constants};
 }
 
 void add_lookup_constants(vulkan::SpecializationConstants& constants, const MapSet& set) {

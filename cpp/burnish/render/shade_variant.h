@@ -2,21 +2,23 @@
 #pragma once
 
 #include "burnish/plan/plan.h"
-#include "burnish/sampling/sample_table.h"
-#include "burnish/vulkan/shader.h"
+#include "burnish/render/pipelines.h"
+#include "burnish/render/shade_tables.h"
 
 namespace burnish::render {
 
-/// Entry point for a form of table.
-const char* shader_of(TableForm form);
+/// Where a kernel finds its surface points and leaves what they show.
+struct ShadeTarget {
+    bool is_points = false;  ///< a list of points, else pixels of a G-buffer
+    bool is_display = false; ///< 8-bit sRGB, else linear radiance
+    bool counts_non_finite = false; ///< see ShadeInputs
+};
 
-/// What kernels of the plan's samplers and of the reference share.
-vulkan::SpecializationConstants common_constants(const ShadeTraits& traits, uint32_t shade_class,
-                                                 bool is_points);
+/// The pipeline that shades a class of the plan by the plan's sampler.
+ComputeKey shade_key(const Plan& plan, const ShadeTables& tables, uint32_t shade_class, ShadeTarget target);
 
-/// `table`: of constant form; `buffer_count`: samples of each lobe in buffer or scaled form, 0 for a loop.
-void add_pattern_constants(vulkan::SpecializationConstants& constants, const ShadeTraits& traits,
-                           const PlanSettings& settings, const SampleTable& table, uint32_t buffer_count);
+/// The pipeline that shades it by the reference.
+ComputeKey reference_key(const Plan& plan, uint32_t shade_class, ShadeTarget target, bool is_quadrature);
 
 /// Which lookup the kernel compiles, and for which size of faces.
 void add_lookup_constants(vulkan::SpecializationConstants& constants, const MapSet& set);

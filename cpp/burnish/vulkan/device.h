@@ -101,10 +101,12 @@ public:
     /// Waits for the fence and resets it.
     void wait(VkFence fence) const;
 
+    /// True in a fork of the process that opened it: the driver's threads, and whoever held its locks, stayed
+    /// behind.
+    bool is_forked() const;
     /// True once a call returned VK_ERROR_DEVICE_LOST: nothing made from this device works any more.
     bool is_lost() const { return is_lost_; }
-    /// Throws VulkanError if the device is lost, or this process is a fork of the one that opened it: the
-    /// driver's threads stayed behind, and waiting for them would take for ever.
+    /// Throws VulkanError if the device is lost or forked: waiting for it would take for ever.
     void require_usable() const;
     /// vk_check for what may say that the device is lost.
     void check(VkResult result, const char* what,
@@ -126,7 +128,6 @@ public:
 
 private:
     Device();
-    bool is_forked() const;
     void open_instance(bool validation);
     void choose(const std::string& name);
     void open();

@@ -91,6 +91,14 @@ class Subject(Protocol):
         """Digest of all that decides the values: equal for equal subjects, in every process."""
 
 
+def _device_that_waits(device: _core.Device | None) -> _core.Device:
+    """Refuse a device whose pictures and times depend on what is compiled by then."""
+    chosen = device or default_device()
+    if chosen.compile != "wait":
+        raise ValueError(f'device: expected one opened with compile="wait", got compile="{chosen.compile}"')
+    return chosen
+
+
 def _device_names(device: _core.Device) -> dict[str, Any]:
     return {
         "device": device.name,
@@ -130,7 +138,7 @@ class SceneSubject:
     ) -> None:
         self._scene, self._camera, self._size = scene, camera, size
         self._spp, self._filter = spp, filter
-        self._device = device or default_device()
+        self._device = _device_that_waits(device)
 
     def draw(self, sampler: Sampler, progress: Progress | None = None) -> Shot:
         """Render one frame."""
@@ -193,7 +201,7 @@ class PointsSubject:
     def __init__(self, points: Points, filter: Filter = "gauss6", device: _core.Device | None = None) -> None:
         self._points, self._filter = points, filter
         self._counts: dict[str, str] = {}
-        self._device = device or default_device()
+        self._device = _device_that_waits(device)
 
     def draw(self, sampler: Sampler, progress: Progress | None = None) -> Shot:
         """Shade all points once; nothing is heard of it until it is done."""

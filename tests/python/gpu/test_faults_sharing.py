@@ -1,10 +1,6 @@
 """Several processes and several threads on one device, and forks: each gets what it would get alone."""
 
 import hashlib
-import os
-import subprocess
-import sys
-import textwrap
 import threading
 
 import numpy as np
@@ -13,6 +9,7 @@ import pytest
 import burnish
 from burnish import builtin
 from burnish.environments import spots
+from process_support import finish, start
 
 SIZE = (24, 32)
 
@@ -31,22 +28,6 @@ FRAMES = """
             digest.update(frame.color.tobytes())
     print(digest.hexdigest())
 """
-
-
-def start(code, *arguments):
-    return subprocess.Popen(
-        [sys.executable, "-c", textwrap.dedent(code), *arguments],
-        stdout=subprocess.PIPE,
-        stderr=subprocess.PIPE,
-        text=True,
-        env=os.environ | {"PYTHONPATH": os.pathsep.join(sys.path), "BURNISH_VALIDATION": "0"},
-    )
-
-
-def finish(process):
-    out, err = process.communicate(timeout=240)
-    assert process.returncode == 0, f"exit {process.returncode}: {err[-2000:]}"
-    return out.split()[-1]
 
 
 def test_processes_at_the_same_time_draw_what_one_draws(device):

@@ -1,5 +1,7 @@
 """Only what the scene calls for runs: each effect is off with a reason, or on where something asks."""
 
+import itertools
+
 import numpy as np
 import pytest
 
@@ -141,6 +143,18 @@ def test_several_lobes_are_read_in_a_loop_only_where_they_are_many(spots64):
     few, many = (plan_of(scene, burnish.Regular(count))["classes"][0] for count in (40, 41))
     assert few["table"] == many["table"] == "buffer"
     assert "in a loop" not in few["reason"] and "in a loop" in many["reason"]
+
+
+def test_one_lobe_among_too_many_kinds_of_material_says_why_it_reads_a_buffer(spots64):
+    kinds = itertools.product((0.0, 0.5, 0.3), (1.0, 0.5), (0.2, (0.2, 0.1)), (0.0, 0.5), (0.0, 1.0))
+    others = [
+        material(burnish.KurtLobe(roughness=m, r0=r0, alpha=alpha), LOBE, diffuse=diffuse, emissive=emissive)
+        for alpha, r0, m, diffuse, emissive in kinds
+    ]
+    classes = plan_of(scene_of(material(LOBE), *others, environment=spots64))["classes"]
+    assert {one["table"] for one in classes} == {"buffer"} and len(classes) == 2
+    assert "too many kinds of material in the picture for a pipeline each" in classes[0]["reason"]
+    assert "several lobes" in classes[1]["reason"]
 
 
 def by_name(effects):

@@ -1,0 +1,37 @@
+// The part of Renderer that chooses what to draw: a plan, and its pipelines where they take time to compile.
+#include "burnish/render/renderer.h"
+#include "burnish/vulkan/device.h"
+
+namespace burnish::render {
+
+Plan Renderer::make_plan(const Scene& scene, const PlanSettings& settings) {
+    PlanSettings with_lookup = settings;
+    with_lookup.lookup = lookup_;
+    return burnish::make_plan(scene, with_lookup, suns_);
+}
+
+Renderer::ShadePlan Renderer::plan_shading(const Scene& scene, const PlanSettings& settings,
+                                           ShadeTarget target) {
+    Plan plan = make_plan(scene, settings);
+    ShadeTables tables = make_shade_tables(device_, scene, plan, tables_);
+    if (compilation_ == Compilation::wait) return {std::move(plan), std::move(tables)};
+
+    std::vector<ComputeKey> keys;
+    for (uint32_t k = 0; k < plan.classes.size(); ++k)
+        if (plan.classes[k].traits.table == TableForm::constant)
+            keys.push_back(shade_key(plan, tables, k, target));
+    if (pipelines_.request(keys)) return {std::move(plan), std::move(tables)};
+
+    PlanSettings meanwhile = settings;
+    meanwhile.sample_source = SampleSource::buffer;
+    plan = make_plan(scene, meanwhile);
+    tables = make_shade_tables(device_, scene, plan, tables_);
+    return {std::move(plan), std::move(tables)};
+}
+
+void Renderer::finish_compiling() {
+    device_->require_usable(); // a fork would wait for a thread that it does not have
+    pipelines_.finish_compiling();
+}
+
+} // namespace burnish::render
