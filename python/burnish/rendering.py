@@ -241,13 +241,11 @@ def render(
             warnings.warn(advice.warning, RuntimeWarning, stacklevel=2)
     sampler = _core.Regular() if sampler is None else sampler
     stops = _stops(output, display_exposure)
-    if error_estimate and stops is not None:
-        raise ValueError(
-            "error_estimate: expected False beside display output, which has no radiance, got True"
-        )
     if error_estimate:
         from burnish.advice.error_estimate import companion
 
+        if stops is not None:
+            raise ValueError("error_estimate: expected False beside display output (no radiance), got True")
         other = companion(sampler)  # refuses a sampler that has none before any work is done
     data = _core.render(
         device, scene, camera, height, width, sampler, int(spp), filter, progress, strict, stops

@@ -109,8 +109,8 @@ std::optional<Frame> Renderer::draw_once(const Scene& scene, const Camera& camer
     pipelines_.take_compile_ms();
     GpuScene& gpu_scene = prepare_scene(scene);
     const bool is_fused = settings.plan.display_exposure && settings.plan.spp == 1;
-    const auto [plan, tables] = plan_shading(
-        scene, settings.plan, {.is_display = is_fused, .counts_non_finite = counts_non_finite});
+    const auto [plan, tables] =
+        plan_shading(scene, settings.plan, {.is_display = is_fused, .counts_non_finite = counts_non_finite});
 
     Frame frame;
     frame.width = settings.width;

@@ -9,8 +9,8 @@ namespace burnish::render {
 
 /// Where a kernel finds its surface points and leaves what they show.
 struct ShadeTarget {
-    bool is_points = false;  ///< a list of points, else pixels of a G-buffer
-    bool is_display = false; ///< 8-bit sRGB, else linear radiance
+    bool is_points = false;         ///< a list of points, else pixels of a G-buffer
+    bool is_display = false;        ///< 8-bit sRGB, else linear radiance
     bool counts_non_finite = false; ///< see ShadeInputs
 };
 
