@@ -1,9 +1,9 @@
 #include "burnish/render/environment_maps.h"
 
 #include "burnish/error.h"
+#include "burnish/render/stopwatch.h"
+#include "burnish/render/texel_pairs.h"
 #include "burnish/vulkan/transfer.h"
-
-#include <chrono>
 
 #include <glm/gtc/packing.hpp>
 
@@ -38,15 +38,9 @@ Prefilter& MapTools::prefilter() {
     return *prefilter_;
 }
 
-TexelPairs& MapTools::texel_pairs() {
-    if (!texel_pairs_) texel_pairs_ = std::make_unique<TexelPairs>(device_);
-    return *texel_pairs_;
-}
-
 void MapTools::free() {
     pyramid_.free_scratches();
     prefilter_.reset();
-    texel_pairs_.reset();
 }
 
 EnvironmentMaps::EnvironmentMaps(MapTools& tools, EnvironmentSpan environments, const MapSettings& wanted) {
@@ -63,7 +57,7 @@ EnvironmentMaps::EnvironmentMaps(MapTools& tools, EnvironmentSpan environments, 
     settings.is_cube = true;
     image_ = vulkan::Image(device, settings);
 
-    const auto start = std::chrono::steady_clock::now();
+    const render::Stopwatch upload_watch;
     std::vector<std::vector<uint16_t>> texels;
     for (const auto& environment : environments)
         texels.push_back(environment->half_rgba());
@@ -74,18 +68,18 @@ EnvironmentMaps::EnvironmentMaps(MapTools& tools, EnvironmentSpan environments, 
         faces.layer_count = 6;
         vulkan::upload(image_, faces, std::as_bytes(std::span(texels[cube])));
     }
-    const std::chrono::duration<double, std::milli> upload_time = std::chrono::steady_clock::now() - start;
-    pass_times_ = {{"upload", upload_time.count()}};
+    pass_times_ = {{"upload", upload_watch.milliseconds()}};
 
     const bool is_packed = wanted.lookup != MapLookup::sampler;
     const auto access = wanted.lookup == MapLookup::software_stored ? vulkan::ElementAccess::storage
                                                                     : vulkan::ElementAccess::texels;
-    if (!is_packed) pairs_ = vulkan::ElementBuffer(device, 1, VK_FORMAT_R32G32B32A32_UINT, access);
-    const auto pack = [&](vulkan::Commands& commands) {
+    pairs_ = is_packed ? make_pair_buffer(device, face_size, cube_count, access)
+                       : vulkan::ElementBuffer(device, 1, VK_FORMAT_R32G32B32A32_UINT, access);
+    const auto pack = [&](uint32_t first_level) {
         if (!is_packed) return;
-        commands.begin_pass("pack");
-        pairs_ = tools.texel_pairs().record(commands, image_, access);
-        commands.end_pass();
+        const render::Stopwatch watch;
+        pack_pairs(image_, first_level, pairs_);
+        pass_times_.push_back({"pack", watch.milliseconds()});
     };
     const auto submit = [&](vulkan::Commands& commands) {
         commands.submit();
@@ -100,22 +94,16 @@ EnvironmentMaps::EnvironmentMaps(MapTools& tools, EnvironmentSpan environments, 
     } else {
         commands.transition(image_, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
     }
-    pack(commands);
-    vulkan::Image prefiltered;
-    if (wanted.kernel) {
-        prefiltered = vulkan::Image(device, settings);
-        commands.begin_pass("prefilter");
-        tools.prefilter().record(commands, image_, wanted.lookup, pairs_, prefiltered, *wanted.kernel,
-                                 *wanted.filter);
-        commands.end_pass();
-    }
     submit(commands);
+    pack(0);
     if (!wanted.kernel) return;
 
-    image_ = std::move(prefiltered);
     vulkan::Commands after(device);
-    pack(after);
+    after.begin_pass("prefilter");
+    tools.prefilter().record(after, image_, wanted.lookup, pairs_, *wanted.kernel, *wanted.filter);
+    after.end_pass();
     submit(after);
+    pack(1); // level 0 is not filtered
 }
 
 std::vector<std::vector<float>> EnvironmentMaps::read_levels(uint32_t cube) {

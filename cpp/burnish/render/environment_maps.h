@@ -3,8 +3,8 @@
 
 #include "burnish/render/prefilter.h"
 #include "burnish/render/pyramid.h"
-#include "burnish/render/texel_pairs.h"
 #include "burnish/scene/environment.h"
+#include "burnish/vulkan/element_buffer.h"
 
 #include <memory>
 #include <optional>
@@ -22,15 +22,13 @@ public:
     const std::shared_ptr<const vulkan::Device>& device() const { return device_; }
     Pyramid& pyramid() { return pyramid_; }
     Prefilter& prefilter();
-    TexelPairs& texel_pairs();
     /// Gives back what is only kept for the next maps.
     void free();
 
 private:
     std::shared_ptr<const vulkan::Device> device_;
     Pyramid pyramid_;
-    std::unique_ptr<Prefilter> prefilter_;    // once a map calls for it
-    std::unique_ptr<TexelPairs> texel_pairs_; // likewise
+    std::unique_ptr<Prefilter> prefilter_; // once a map calls for it
 };
 
 struct MapSettings {
@@ -59,8 +57,8 @@ public:
     uint32_t face_size() const { return image_.settings().width; }
     uint32_t count() const { return image_.settings().layers / 6; }
     uint32_t level_count() const { return image_.settings().levels; }
-    /// "upload", as the host sees it, "pyramid", "prefilter" and "pack", as the device does, where they were
-    /// made.
+    /// "upload" and "pack", as the host sees them, "pyramid" and "prefilter", as the device does, where they
+    /// were made.
     const std::vector<vulkan::PassTime>& pass_times() const { return pass_times_; }
 
     /// One cube's levels as stored, finest first: 6 n n 3 floats each (face, row, column, channel).

@@ -1,38 +1,37 @@
-// Maps as our own lookup reads them: pairs of texels in a buffer (glsl/shared/texel_pairs.h).
+// Maps as our own lookup (glsl/lookup/map_lookup.glsl) reads them: pairs of texels in a buffer.
+//
+// On a CPU device the driver's sampler takes most of a frame. Our own lookup reads a buffer whose elements
+// are two texels side by side, channel by channel: red as the halves of x, green of y, blue of z. A level
+// holds its six faces one after the other, each with a border of one texel, row by row: n + 1 pairs in each
+// of n + 2 rows, the pair p holding the bordered texels p and p + 1, so that a bilinear lookup is two loads.
+// Texels beyond one edge are the neighbouring face's; beyond two, the mean of the three that meet there.
+//
+// Faces stand in Vulkan's order, but not in its orientation: no axis is mirrored. A face across z is seen
+// along (x, y), one across y along (x, z), one across x along (z, y), so that the lookup has no sign to
+// change.
 #pragma once
 
 #include "burnish/vulkan/commands.h"
 #include "burnish/vulkan/element_buffer.h"
 
-#include <map>
-#include <memory>
+#include <cstdint>
+#include <span>
+
+#include <glm/glm.hpp>
 
 namespace burnish {
 
-/// Packs cube arrays into pairs. Not for several threads at once.
-class TexelPairs {
-public:
-    explicit TexelPairs(std::shared_ptr<const vulkan::Device> device);
+/// Room for the pairs of all levels of `cube_count` cubes.
+vulkan::ElementBuffer make_pair_buffer(const vulkan::DevicePointer& device, uint32_t face_size,
+                                       uint32_t cube_count, vulkan::ElementAccess access);
 
-    /// Records the packing of every level that `cubes` has; values stay what they are, but the mean of three
-    /// texels at a cube's corner is rounded to half. `cubes` is a cube array of RGBA16F in
-    /// SHADER_READ_ONLY_OPTIMAL, and is so afterwards. It and this object must live until the commands are
-    /// done.
-    vulkan::ElementBuffer record(vulkan::Commands& commands, vulkan::Image& cubes,
-                                 vulkan::ElementAccess access);
+/// Packs one level of a cube: `texels` are six faces of half RGBA in Vulkan's order and orientation. Values
+/// stay what they are, but the mean of three texels at a cube's corner is rounded to the nearest half.
+void pack_level(std::span<const uint64_t> texels, uint32_t size, std::span<glm::uvec4> pairs);
 
-private:
-    struct Pipelines {
-        vulkan::ComputePipeline inside, border;
-    };
-    const Pipelines& pipelines(vulkan::ElementAccess access);
-
-    std::shared_ptr<const vulkan::Device> device_;
-    vulkan::Shader shader_;
-    std::map<vulkan::ElementAccess, Pipelines> pipelines_;
-    // Of the last call: the cubes as they lie in memory, level by level.
-    vulkan::ElementBuffer texels_;
-    vulkan::DescriptorSet set_;
-};
+/// Packs what `cubes` holds from `first_level` on, and waits. The host does it: our lookup is for devices
+/// that are CPUs, where a kernel's loads and stores are loops over lanes, and takes a tenth of the time.
+/// `cubes` is a cube array of RGBA16F in SHADER_READ_ONLY_OPTIMAL, and is so afterwards.
+void pack_pairs(vulkan::Image& cubes, uint32_t first_level, const vulkan::ElementBuffer& pairs);
 
 } // namespace burnish
