@@ -75,10 +75,14 @@ EnvironmentMaps::EnvironmentMaps(MapTools& tools, EnvironmentSpan environments, 
                                                                     : vulkan::ElementAccess::texels;
     pairs_ = is_packed ? make_pair_buffer(device, face_size, cube_count, access)
                        : vulkan::ElementBuffer(device, 1, VK_FORMAT_R32G32B32A32_UINT, access);
-    const auto pack = [&](uint32_t first_level) {
+    // From where they were made, or else from the image.
+    const auto pack = [&](const std::vector<LevelTexels>& levels, uint32_t first_level) {
         if (!is_packed) return;
         const render::Stopwatch watch;
-        pack_pairs(image_, first_level, pairs_);
+        if (levels.empty())
+            pack_pairs(image_, first_level, pairs_);
+        else
+            pack_pairs(levels, face_size, cube_count, pairs_);
         pass_times_.push_back({"pack", watch.milliseconds()});
     };
     const auto submit = [&](vulkan::Commands& commands) {
@@ -95,7 +99,7 @@ EnvironmentMaps::EnvironmentMaps(MapTools& tools, EnvironmentSpan environments, 
         commands.transition(image_, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
     }
     submit(commands);
-    pack(0);
+    pack(wanted.filter ? tools.pyramid().levels_on_host() : std::vector<LevelTexels>(), 0);
     if (!wanted.kernel) return;
 
     vulkan::Commands after(device);
@@ -103,7 +107,8 @@ EnvironmentMaps::EnvironmentMaps(MapTools& tools, EnvironmentSpan environments, 
     tools.prefilter().record(after, image_, wanted.lookup, pairs_, *wanted.kernel, *wanted.filter);
     after.end_pass();
     submit(after);
-    pack(1); // level 0 is not filtered
+    // Level 0 is not filtered; the tool has room for one cube.
+    pack(cube_count == 1 ? tools.prefilter().levels_on_host() : std::vector<LevelTexels>(), 1);
 }
 
 std::vector<std::vector<float>> EnvironmentMaps::read_levels(uint32_t cube) {

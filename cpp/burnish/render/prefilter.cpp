@@ -59,9 +59,11 @@ const Prefilter::Scratch& Prefilter::scratch(const Key& key) {
 void Prefilter::record(vulkan::Commands& commands, vulkan::Image& cubes, MapLookup lookup,
                        const vulkan::ElementBuffer& pairs, PrefilterKernel kernel, PyramidFilter filter) {
     const vulkan::ImageSettings& settings = cubes.settings();
+    last_ = nullptr;
     const vulkan::ComputePipeline& used = pipeline(kernel, settings.width, lookup);
     for (uint32_t cube = 0; cube < settings.layers / 6 && settings.levels > 1; ++cube) {
         const Scratch& room = scratch({settings.width, kernel, filter});
+        last_ = &room;
         if (cube == 0) {
             set_ = vulkan::DescriptorSet(used);
             set_.bind(shared::BINDING_MAPS, cubes.view_as(VK_IMAGE_VIEW_TYPE_CUBE_ARRAY), sampler_)
@@ -89,6 +91,16 @@ void Prefilter::record(vulkan::Commands& commands, vulkan::Image& cubes, MapLook
         commands.transition(cubes,
                             VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL); // the next cube's room is the same
     }
+}
+
+std::vector<LevelTexels> Prefilter::levels_on_host() const {
+    std::vector<LevelTexels> result;
+    if (!last_ || !device_->info().is_software || !last_->texels.is_mapped()) return result;
+    const uint64_t* texels = last_->texels.mapped<uint64_t>().data();
+    for (const Level& level : last_->levels)
+        result.push_back(
+            {texels + level.texel_begin, level.size, size_t{level.size} * level.size, level.size});
+    return result;
 }
 
 } // namespace burnish

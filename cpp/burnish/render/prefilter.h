@@ -3,6 +3,7 @@
 #pragma once
 
 #include "burnish/plan/map_lookup.h"
+#include "burnish/render/level_texels.h"
 #include "burnish/sampling/pyramid_filter.h"
 #include "burnish/vulkan/commands.h"
 #include "burnish/vulkan/device.h"
@@ -31,6 +32,10 @@ public:
     void record(vulkan::Commands& commands, vulkan::Image& cubes, MapLookup lookup,
                 const vulkan::ElementBuffer& pairs, PrefilterKernel kernel, PyramidFilter filter);
 
+    /// The levels from 1 on of the cube recorded last, once that is done and until the next call. Empty where
+    /// the host does not read the device's memory as fast as its own.
+    std::vector<LevelTexels> levels_on_host() const;
+
 private:
     struct Level {
         uint32_t size;         // texels along an edge
@@ -55,6 +60,7 @@ private:
     std::map<std::tuple<PrefilterKernel, uint32_t, MapLookup>, vulkan::ComputePipeline> pipelines_;
     vulkan::Sampler sampler_;
     vulkan::DescriptorSet set_; // of the commands recorded last
+    const Scratch* last_ = nullptr;
     std::map<Key, Scratch> scratches_;
 };
 

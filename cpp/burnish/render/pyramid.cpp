@@ -205,6 +205,7 @@ void Pyramid::record(vulkan::Commands& commands, vulkan::Image& cubes, uint32_t 
         commands.transition(cubes, is_general ? VK_IMAGE_LAYOUT_GENERAL : layout);
     };
     uint32_t batch = batch_size(face_size, cube_count);
+    last_ = nullptr;
     for (uint32_t done = 0; done < cube_count && face_size > 1; done += batch) {
         while (batch > cube_count - done)
             batch /= 2;
@@ -217,6 +218,7 @@ void Pyramid::record(vulkan::Commands& commands, vulkan::Image& cubes, uint32_t 
             commands.barrier();
         }
         record_levels(commands, room, batch, filter);
+        if (batch == cube_count) last_ = &room;
 
         move_to(VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL);
         std::vector<VkBufferImageCopy> copies;
@@ -228,6 +230,18 @@ void Pyramid::record(vulkan::Commands& commands, vulkan::Image& cubes, uint32_t 
                                cubes.layout(), static_cast<uint32_t>(copies.size()), copies.data());
     }
     move_to(VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
+}
+
+std::vector<LevelTexels> Pyramid::levels_on_host() const {
+    std::vector<LevelTexels> result;
+    if (!last_ || !device_->info().is_software || !last_->pairs.buffer().is_mapped()) return result;
+    const uint64_t* texels = last_->pairs.buffer().mapped<uint64_t>().data();
+    for (const Level& level : last_->levels) {
+        const size_t pitch = 2 * size_t{row_pairs(level.size)}, border = shared::PYRAMID_BORDER;
+        result.push_back({texels + 2 * size_t{level.begin} + border * (pitch + 1), pitch,
+                          pitch * face_rows(level.size), level.size});
+    }
+    return result;
 }
 
 } // namespace burnish

@@ -3,6 +3,7 @@
 #include "burnish/plan/map_lookup.h"
 #include "burnish/sampling/cube_texels.h"
 #include "burnish/scene/half.h"
+#include "burnish/vulkan/commands.h"
 #include "burnish/vulkan/transfer.h"
 
 #include <algorithm>
@@ -22,7 +23,7 @@ constexpr uint32_t LEAST_THREADED_SIZE = 128; // below, starting threads costs m
 /// The texels of one level of a cube, found by their places in the orientation of the pairs.
 class CubeLevel {
 public:
-    CubeLevel(std::span<const uint64_t> texels, uint32_t size) : texels_(texels), size_(size) {
+    explicit CubeLevel(const LevelTexels& texels) : texels_(texels), size_(texels.size) {
         for (uint32_t face = 0; face < 6; ++face)
             axes_[face] = face_axes(face);
     }
@@ -33,7 +34,7 @@ public:
         const bool is_border = y < 0 || y >= n;
         const std::ptrdiff_t begin = index(face, 0, y), step = n > 1 ? index(face, 1, y) - begin : 0;
         for (int x = 0; x < n; ++x)
-            row[size_t(x) + 1] = texels_[size_t(begin + x * step)];
+            row[size_t(x) + 1] = texels_.first[begin + x * step];
         row.front() = is_border ? corner(face, -1, y) : texel(face, -1, y);
         row.back() = is_border ? corner(face, n, y) : texel(face, n, y);
     }
@@ -57,10 +58,11 @@ private:
         const auto place = [&](const glm::dvec3& axis) {
             return std::ptrdiff_t((glm::dot(axis, point) + 1.0) * (0.5 * size_));
         };
-        return (std::ptrdiff_t(owner) * size_ + place(axes_[owner].down)) * size_ + place(axes_[owner].right);
+        return std::ptrdiff_t(owner * texels_.face_pitch) +
+               place(axes_[owner].down) * std::ptrdiff_t(texels_.row_pitch) + place(axes_[owner].right);
     }
 
-    uint64_t texel(uint32_t face, int x, int y) const { return texels_[size_t(index(face, x, y))]; }
+    uint64_t texel(uint32_t face, int x, int y) const { return texels_.first[index(face, x, y)]; }
 
     /// Beyond two edges: the mean of the three texels that meet there.
     uint64_t corner(uint32_t face, int x, int y) const {
@@ -73,7 +75,7 @@ private:
         return half_bits(mean.r) | uint64_t(half_bits(mean.g)) << 16 | uint64_t(half_bits(mean.b)) << 32;
     }
 
-    std::span<const uint64_t> texels_;
+    LevelTexels texels_;
     uint32_t size_;
     std::array<FaceAxes, 6> axes_;
 };
@@ -85,19 +87,13 @@ glm::uvec4 pair_of(uint64_t left, uint64_t right) {
             low(left >> 32) | low(right >> 32) << 16, 0u};
 }
 
-} // namespace
-
-vulkan::ElementBuffer make_pair_buffer(const vulkan::DevicePointer& device, uint32_t face_size,
-                                       uint32_t cube_count, vulkan::ElementAccess access) {
-    return {device, cube_pair_count(face_size) * cube_count, VK_FORMAT_R32G32B32A32_UINT, access};
-}
-
-void pack_level(std::span<const uint64_t> texels, uint32_t size, std::span<glm::uvec4> pairs) {
-    const CubeLevel level(texels, size);
+void pack_level(const LevelTexels& texels, glm::uvec4* pairs) {
+    const uint32_t size = texels.size;
+    const CubeLevel level(texels);
     const auto pack_faces = [&](uint32_t first, uint32_t step) {
         std::vector<uint64_t> row(size + 2);
         for (uint32_t face = first; face < 6; face += step) {
-            glm::uvec4* pair = pairs.data() + size_t{face} * (size + 1) * (size + 2);
+            glm::uvec4* pair = pairs + size_t{face} * (size + 1) * (size + 2);
             for (uint32_t y = 0; y < size + 2; ++y) {
                 level.read_row(face, int(y) - 1, row);
                 for (uint32_t x = 0; x <= size; ++x)
@@ -111,6 +107,37 @@ void pack_level(std::span<const uint64_t> texels, uint32_t size, std::span<glm::
     for (uint32_t k = 1; k < threads; ++k)
         others.emplace_back(pack_faces, k, threads);
     pack_faces(0, threads);
+}
+
+} // namespace
+
+vulkan::ElementBuffer make_pair_buffer(const vulkan::DevicePointer& device, uint32_t face_size,
+                                       uint32_t cube_count, vulkan::ElementAccess access) {
+    return {device, cube_pair_count(face_size) * cube_count, VK_FORMAT_R32G32B32A32_UINT, access};
+}
+
+void pack_pairs(std::span<const LevelTexels> levels, uint32_t face_size, uint32_t cube_count,
+                const vulkan::ElementBuffer& pairs) {
+    if (levels.empty()) return;
+    uint64_t first = 0; // pairs of a cube before those levels
+    for (uint32_t size = face_size; size > levels.front().size; size /= 2)
+        first += level_pair_count(size);
+    uint64_t count = 0;
+    for (const LevelTexels& level : levels)
+        count += level_pair_count(level.size);
+    const bool is_mapped = pairs.buffer().is_mapped();
+    std::vector<glm::uvec4> staged(is_mapped ? 0 : count);
+    for (uint32_t cube = 0; cube < cube_count; ++cube) {
+        const uint64_t begin = cube * cube_pair_count(face_size) + first;
+        glm::uvec4* pair = is_mapped ? pairs.buffer().mapped<glm::uvec4>().data() + begin : staged.data();
+        for (LevelTexels level : levels) {
+            level.first += 6 * cube * level.face_pitch;
+            pack_level(level, pair);
+            pair += level_pair_count(level.size);
+        }
+        if (!is_mapped)
+            vulkan::upload(pairs.buffer(), std::as_bytes(std::span(staged)), begin * sizeof(glm::uvec4));
+    }
 }
 
 void pack_pairs(vulkan::Image& cubes, uint32_t first_level, const vulkan::ElementBuffer& pairs) {
@@ -135,30 +162,13 @@ void pack_pairs(vulkan::Image& cubes, uint32_t first_level, const vulkan::Elemen
     commands.transition(cubes, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
     commands.submit();
 
-    const uint64_t cube_pairs = cube_pair_count(settings.width);
-    std::vector<glm::uvec4> staged; // of one cube
-    for (uint32_t cube = 0; cube < settings.layers / 6; ++cube) {
-        const bool is_mapped = pairs.buffer().is_mapped();
-        if (!is_mapped) staged.resize(cube_pairs);
-        const std::span<glm::uvec4> all =
-            is_mapped ? pairs.buffer().mapped<glm::uvec4>().subspan(cube * cube_pairs, cube_pairs)
-                      : std::span(staged);
-        uint64_t begin = 0;
-        for (uint32_t level = 0; level < first_level; ++level)
-            begin += level_pair_count(settings.width >> level);
-        const uint64_t first = begin;
-        for (const VkBufferImageCopy& copy : copies) {
-            const uint32_t size = copy.imageExtent.width;
-            const uint64_t cube_texels = uint64_t{6} * size * size;
-            pack_level(room.mapped<uint64_t>().subspan(copy.bufferOffset / TEXEL_BYTES + cube * cube_texels,
-                                                       cube_texels),
-                       size, all.subspan(begin, level_pair_count(size)));
-            begin += level_pair_count(size);
-        }
-        if (!is_mapped)
-            vulkan::upload(pairs.buffer(), std::as_bytes(all.subspan(first)),
-                           (cube * cube_pairs + first) * sizeof(glm::uvec4));
+    std::vector<LevelTexels> levels;
+    for (const VkBufferImageCopy& copy : copies) {
+        const size_t size = copy.imageExtent.width;
+        levels.push_back({room.mapped<uint64_t>().data() + copy.bufferOffset / TEXEL_BYTES, size, size * size,
+                          uint32_t(size)});
     }
+    pack_pairs(levels, settings.width, settings.layers / 6, pairs);
 }
 
 } // namespace burnish

@@ -11,8 +11,9 @@
 // change.
 #pragma once
 
-#include "burnish/vulkan/commands.h"
+#include "burnish/render/level_texels.h"
 #include "burnish/vulkan/element_buffer.h"
+#include "burnish/vulkan/image.h"
 
 #include <cstdint>
 #include <span>
@@ -25,13 +26,16 @@ namespace burnish {
 vulkan::ElementBuffer make_pair_buffer(const vulkan::DevicePointer& device, uint32_t face_size,
                                        uint32_t cube_count, vulkan::ElementAccess access);
 
-/// Packs one level of a cube: `texels` are six faces of half RGBA in Vulkan's order and orientation. Values
-/// stay what they are, but the mean of three texels at a cube's corner is rounded to the nearest half.
-void pack_level(std::span<const uint64_t> texels, uint32_t size, std::span<glm::uvec4> pairs);
-
-/// Packs what `cubes` holds from `first_level` on, and waits. The host does it: our lookup is for devices
-/// that are CPUs, where a kernel's loads and stores are loops over lanes, and takes a tenth of the time.
-/// `cubes` is a cube array of RGBA16F in SHADER_READ_ONLY_OPTIMAL, and is so afterwards.
+/// Packs levels of as many cubes as `pairs` holds, which have faces of `face_size`: `levels` are the last
+/// ones, down to one texel, or level 0 alone. Values stay what they are, but the mean of three texels at a
+/// cube's corner is rounded to the nearest half.
+///
+/// The host does it: our lookup is for devices that are CPUs, where the loads and stores of a kernel are
+/// loops over lanes, and took ten times as long.
+void pack_pairs(std::span<const LevelTexels> levels, uint32_t face_size, uint32_t cube_count,
+                const vulkan::ElementBuffer& pairs);
+/// The same of what `cubes` holds from `first_level` on: a cube array of RGBA16F in SHADER_READ_ONLY_OPTIMAL,
+/// which it is afterwards, too. Submits and waits.
 void pack_pairs(vulkan::Image& cubes, uint32_t first_level, const vulkan::ElementBuffer& pairs);
 
 } // namespace burnish
