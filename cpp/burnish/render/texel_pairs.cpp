@@ -111,11 +111,6 @@ void pack_level(const LevelTexels& texels, glm::uvec4* pairs) {
 
 } // namespace
 
-vulkan::ElementBuffer make_pair_buffer(const vulkan::DevicePointer& device, uint32_t face_size,
-                                       uint32_t cube_count, vulkan::ElementAccess access) {
-    return {device, cube_pair_count(face_size) * cube_count, VK_FORMAT_R32G32B32A32_UINT, access};
-}
-
 void pack_pairs(std::span<const LevelTexels> levels, uint32_t face_size, uint32_t cube_count,
                 const vulkan::ElementBuffer& pairs) {
     if (levels.empty()) return;

@@ -22,10 +22,6 @@
 
 namespace burnish {
 
-/// Room for the pairs of all levels of `cube_count` cubes.
-vulkan::ElementBuffer make_pair_buffer(const vulkan::DevicePointer& device, uint32_t face_size,
-                                       uint32_t cube_count, vulkan::ElementAccess access);
-
 /// Packs levels of as many cubes as `pairs` holds, which have faces of `face_size`: `levels` are the last
 /// ones, down to one texel, or level 0 alone. Values stay what they are, but the mean of three texels at a
 /// cube's corner is rounded to the nearest half.
