@@ -85,15 +85,13 @@ EnvironmentMaps::EnvironmentMaps(MapTools& tools, EnvironmentSpan environments, 
     vulkan::Image& image = room_.image;
 
     const render::Stopwatch upload_watch;
-    std::vector<std::vector<uint16_t>> texels;
-    for (const auto& environment : environments)
-        texels.push_back(environment->half_rgba());
-    const bool is_staged = wanted.filter && tools.pyramid().stage(image, texels, *wanted.filter);
+    const bool is_staged = wanted.filter && tools.pyramid().stage(image, environments, *wanted.filter);
     for (uint32_t cube = 0; cube < cube_count && !is_staged; ++cube) {
         vulkan::ImageRegion faces;
         faces.base_layer = 6 * cube;
         faces.layer_count = 6;
-        vulkan::upload(image, faces, std::as_bytes(std::span(texels[cube])));
+        vulkan::upload(image, faces,
+                       std::as_bytes(std::span<const uint16_t>(environments[cube]->half_rgba())));
     }
     pass_times_ = {{"upload", upload_watch.milliseconds()}};
 

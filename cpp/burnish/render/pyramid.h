@@ -3,6 +3,7 @@
 
 #include "burnish/render/level_texels.h"
 #include "burnish/sampling/pyramid_filter.h"
+#include "burnish/scene/environment.h"
 #include "burnish/vulkan/commands.h"
 #include "burnish/vulkan/device.h"
 #include "burnish/vulkan/element_buffer.h"
@@ -45,9 +46,10 @@ public:
                 PyramidFilter filter, Finest finest = Finest::in_image);
 
     /// Where the host sees the device's memory and all cubes of such an image can be done at once: writes
-    /// level 0, half RGBA of six faces for each cube, into the buffer and from there into the image, so that
+    /// level 0 of the environments, a cube each, into the buffer and from there into the image, so that
     /// `record` need not copy it back. Submits and waits. False where that cannot be: upload the image then.
-    bool stage(vulkan::Image& cubes, std::span<const std::vector<uint16_t>> texels, PyramidFilter filter);
+    bool stage(vulkan::Image& cubes, std::span<const std::shared_ptr<const Environment>> environments,
+               PyramidFilter filter);
     /// All levels of the cubes recorded last, once that is done and until the next call. Empty where they
     /// were not done at once, or where the host does not read the device's memory as fast as its own.
     std::vector<LevelTexels> levels_on_host() const;

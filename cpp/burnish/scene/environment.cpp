@@ -150,16 +150,21 @@ Environment Environment::from_lat_long(uint32_t height, uint32_t width, const st
 }
 
 std::vector<uint16_t> Environment::half_rgba() const {
+    const size_t row_halves = size_t{4} * face_size_;
+    std::vector<uint16_t> half(6 * face_size_ * row_halves);
+    for (uint32_t row = 0; row < 6 * face_size_; ++row)
+        half_rgba(row, std::span(half).subspan(row * row_halves, row_halves));
+    return half;
+}
+
+void Environment::half_rgba(uint32_t row, std::span<uint16_t> half) const {
     constexpr uint16_t HALF_ONE = 0x3C00;
-    const size_t texel_count = radiance_.size() / 3;
-    std::vector<uint16_t> half(texel_count * 4);
-    for (size_t texel = 0; texel < texel_count; ++texel) {
-        for (size_t channel = 0; channel < 3; ++channel) {
-            half[4 * texel + channel] = half_bits(radiance_[3 * texel + channel]);
-        }
+    const float* rgb = radiance_.data() + size_t{3} * face_size_ * row;
+    for (size_t texel = 0; texel < face_size_; ++texel) {
+        for (size_t channel = 0; channel < 3; ++channel)
+            half[4 * texel + channel] = half_bits(rgb[3 * texel + channel]);
         half[4 * texel + 3] = HALF_ONE;
     }
-    return half;
 }
 
 glm::vec3 cube_direction(uint32_t face, float u, float v) {
