@@ -9,7 +9,6 @@
 #include "shared/prefilter.h"
 #include "shared/pyramid.h"
 #include "shared/records.h"
-#include "shared/texel_pairs.h"
 
 namespace py = pybind11;
 
@@ -69,9 +68,6 @@ std::map<std::string, Layout> shared_layout() {
           FIELD(PyramidRecord, source_size), FIELD(PyramidRecord, target_begin),
           FIELD(PyramidRecord, target_pitch), FIELD(PyramidRecord, pad0), FIELD(PyramidRecord, pad1),
           FIELD(PyramidRecord, pad2)}},
-        {"PackRecord",
-         {FIELD(PackRecord, size), FIELD(PackRecord, texel_begin), FIELD(PackRecord, begin),
-          FIELD(PackRecord, cube_stride)}},
         {"PrefilterRecord",
          {FIELD(PrefilterRecord, cube), FIELD(PrefilterRecord, size), FIELD(PrefilterRecord, texel_begin),
           FIELD(PrefilterRecord, sample_begin), FIELD(PrefilterRecord, sample_count),

@@ -1,6 +1,6 @@
 // How kernels read maps. One function, two implementations: the device's sampler, and our own lookup for CPU devices, whose
-// sampler takes most of a frame (shared/texel_pairs.h). Both are seamless and trilinear. A lookup has two halves, aim and load, so
-// that a kernel can aim several before it loads: a CPU then overlaps their loads.
+// sampler takes most of a frame (cpp/burnish/render/texel_pairs.h). Both are seamless and trilinear. A lookup has two halves, aim
+// and load, so that a kernel can aim several before it loads: a CPU then overlaps their loads.
 #ifndef BURNISH_LOOKUP_MAP_LOOKUP
 #define BURNISH_LOOKUP_MAP_LOOKUP
 

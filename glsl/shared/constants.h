@@ -98,7 +98,7 @@ SHARED_CONST uint SPEC_COUNTS_NON_FINITE = 26u; // what is not finite is counted
 SHARED_CONST uint SPEC_SAMPLES = 100u; // four floats a sample follow
 
 SHARED_CONST uint LOOKUP_SAMPLER = 0u; // the device's
-SHARED_CONST uint LOOKUP_TEXELS = 1u;  // our own (shared/texel_pairs.h), from a texel buffer
+SHARED_CONST uint LOOKUP_TEXELS = 1u;  // our own (lookup/map_lookup.glsl), from a texel buffer
 SHARED_CONST uint LOOKUP_STORAGE = 2u; // our own, from a storage buffer: more pairs than texel buffers hold
 
 // Passes whose values are stopped where they are not finite.

@@ -32,7 +32,7 @@ struct PrefilterRecord {
     uint size;         // texels along an edge of the level
     uint texel_begin;  // where its faces begin in the buffer of texels, one after the other
     uint sample_begin; // first entry of its SampleTable, whole phases
-    uint sample_count; // a multiple of PREFILTER_PHASE
+    uint sample_count; // those of whole phases
     uint pad0;
     uint pad1;
     uint pad2;

@@ -9,6 +9,7 @@ from pathlib import Path
 
 from . import scaling
 from .bench import Bench
+from .changing_maps import bench_changing_maps
 from .compare import SLOWER, compare, read_run, table
 from .compilation import bench_compilation
 from .effects import bench_effects
@@ -27,6 +28,7 @@ PARTS: dict[str, tuple[Callable[[Bench], None], str]] = {
     "loop": (bench_loop, "the lookup of our own against a loop by hand in C++, one core and all"),
     "samplers": (bench_samplers, "Matched against Regular at equal counts"),
     "maps": (bench_maps, "levels that Matched and Prefiltered read"),
+    "changing": (bench_changing_maps, "a new map in every frame against one that stays"),
     "display": (bench_display, "8-bit sRGB made on the device or in numpy"),
     "pyramids": (bench_pyramids, "pyramids by three filters"),
     "compile": (bench_compilation, "the first picture of a roughness, waiting for its pipeline or not"),

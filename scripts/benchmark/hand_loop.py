@@ -46,7 +46,7 @@ def sample_table(sampler: burnish.Regular, roughness: float, face_size: int) -> 
 
 
 def pack_pairs(levels: list[np.ndarray]) -> np.ndarray:
-    """Levels of a cube, (6, n, n, 3), as pairs of halves (glsl/shared/texel_pairs.h), (pairs, 8) float16."""
+    """Levels of a cube, (6, n, n, 3), as pairs of halves (render/texel_pairs.h), (pairs, 8) float16."""
     cube = pad_cube(levels)
     parts = []
     for size, begin in zip(cube.sizes, cube.offsets, strict=True):

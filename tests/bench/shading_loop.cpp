@@ -1,7 +1,7 @@
 // What this machine can do at best with the engine's method: Regular as published (one round Kurt lobe,
 // trilinear) by hand, on the engine's own data: a packed normal a pixel, a table of samples, and a map in
-// pairs of texels (glsl/shared/texel_pairs.h). Nothing of the engine is in it; scripts/bench writes its input
-// and compares pictures and times.
+// pairs of texels (cpp/burnish/render/texel_pairs.h). Nothing of the engine is in it; scripts/bench writes
+// its input and compares pictures and times.
 //
 //   shading_loop INPUT THREADS RUNS [PICTURE]
 //

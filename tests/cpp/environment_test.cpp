@@ -243,6 +243,28 @@ TEST(Environment, FaultyTexelsAreCountedAndRepaired) {
     EXPECT_EQ(TexelReport{}.sentence(), "");
 }
 
+TEST(Environment, FindsAFaultWhereverItLies) {
+    constexpr size_t COUNT = size_t{6} * 32 * 32 * 3;
+    for (const size_t at : {size_t{0}, size_t{1535}, size_t{1536}, COUNT - 1}) {
+        std::vector<float> radiance(COUNT, 0.5f);
+        radiance[at] = -3.0f;
+        radiance[COUNT / 2] = 7.0f;
+        const Environment environment = Environment::from_faces(32, radiance);
+        EXPECT_EQ(environment.texel_report().negative, 1u) << "value " << at;
+        EXPECT_EQ(environment.texel_report().count(), 1u) << "value " << at;
+        EXPECT_EQ(environment.texel_report().largest, 7.0f) << "value " << at;
+        EXPECT_EQ(environment.radiance()[at], 0.0f) << "value " << at;
+    }
+}
+
+// Its bits are those of no half in range: they once became a radiance of 2.
+TEST(Environment, MinusZeroIsBlackAndNoFault) {
+    const Environment environment = Environment::from_faces(1, std::vector<float>(18, -0.0f));
+    EXPECT_EQ(environment.texel_report().count(), 0u);
+    for (size_t k = 0; k < 24; ++k)
+        EXPECT_EQ(environment.half_rgba()[k], k % 4 == 3 ? 0x3C00u : 0u) << "half " << k;
+}
+
 TEST(Environment, FaceSizeErrorNamesTheNearest) {
     try {
         Environment::from_faces(100, std::vector<float>(size_t{6} * 100 * 100 * 3));

@@ -19,7 +19,7 @@ const char* map_lookup_name(MapLookup lookup);
 /// None for "auto". Throws std::invalid_argument that lists the names.
 std::optional<MapLookup> map_lookup(const std::string& name);
 
-/// Pairs of texels (glsl/shared/texel_pairs.h) of one level of a cube, and of all its levels.
+/// Pairs of texels (burnish/render/texel_pairs.h) of one level of a cube, and of all its levels.
 uint32_t level_pair_count(uint32_t size);
 uint64_t cube_pair_count(uint32_t face_size);
 

@@ -1,15 +1,19 @@
 #include "burnish/render/environment_maps.h"
 
 #include "burnish/error.h"
+#include "burnish/render/stopwatch.h"
+#include "burnish/render/texel_pairs.h"
 #include "burnish/vulkan/transfer.h"
 
-#include <chrono>
+#include <utility>
 
 #include <glm/gtc/packing.hpp>
 
 namespace burnish {
 
 namespace {
+
+constexpr VkDeviceSize MOST_SPARE_BYTES = VkDeviceSize{256} << 20;
 
 using EnvironmentSpan = std::span<const std::shared_ptr<const Environment>>;
 
@@ -38,15 +42,31 @@ Prefilter& MapTools::prefilter() {
     return *prefilter_;
 }
 
-TexelPairs& MapTools::texel_pairs() {
-    if (!texel_pairs_) texel_pairs_ = std::make_unique<TexelPairs>(device_);
-    return *texel_pairs_;
+MapRoom MapTools::take_room(const vulkan::ImageSettings& settings, MapLookup lookup) {
+    const uint64_t pairs =
+        lookup == MapLookup::sampler ? 1 : cube_pair_count(settings.width) * (settings.layers / 6);
+    const auto access =
+        lookup == MapLookup::software_stored ? vulkan::ElementAccess::storage : vulkan::ElementAccess::texels;
+    std::optional<MapRoom> kept = std::exchange(spare_, {});
+    if (kept && kept->image.settings() == settings && kept->pairs.access() == access &&
+        kept->pairs.buffer().size_bytes() == pairs * sizeof(glm::uvec4))
+        return std::move(*kept);
+    kept.reset(); // its memory may be needed
+    return {vulkan::Image(device_, settings),
+            vulkan::ElementBuffer(device_, pairs, VK_FORMAT_R32G32B32A32_UINT, access)};
+}
+
+void MapTools::keep_room(MapRoom room) {
+    VkDeviceSize bytes = room.pairs.buffer().size_bytes();
+    for (uint32_t level = 0; level < room.image.settings().levels; ++level)
+        bytes += room.image.level_bytes(level) * room.image.settings().layers;
+    if (bytes <= MOST_SPARE_BYTES) spare_ = std::move(room);
 }
 
 void MapTools::free() {
+    spare_.reset();
     pyramid_.free_scratches();
     prefilter_.reset();
-    texel_pairs_.reset();
 }
 
 EnvironmentMaps::EnvironmentMaps(MapTools& tools, EnvironmentSpan environments, const MapSettings& wanted) {
@@ -61,31 +81,30 @@ EnvironmentMaps::EnvironmentMaps(MapTools& tools, EnvironmentSpan environments, 
     settings.levels = wanted.filter ? vulkan::full_levels(face_size, face_size) : 1;
     settings.layers = 6 * cube_count;
     settings.is_cube = true;
-    image_ = vulkan::Image(device, settings);
+    room_ = tools.take_room(settings, wanted.lookup);
+    vulkan::Image& image = room_.image;
 
-    const auto start = std::chrono::steady_clock::now();
-    std::vector<std::vector<uint16_t>> texels;
-    for (const auto& environment : environments)
-        texels.push_back(environment->half_rgba());
-    const bool is_staged = wanted.filter && tools.pyramid().stage(image_, texels, *wanted.filter);
+    const render::Stopwatch upload_watch;
+    const bool is_staged = wanted.filter && tools.pyramid().stage(image, environments, *wanted.filter);
     for (uint32_t cube = 0; cube < cube_count && !is_staged; ++cube) {
         vulkan::ImageRegion faces;
         faces.base_layer = 6 * cube;
         faces.layer_count = 6;
-        vulkan::upload(image_, faces, std::as_bytes(std::span(texels[cube])));
+        vulkan::upload(image, faces,
+                       std::as_bytes(std::span<const uint16_t>(environments[cube]->half_rgba())));
     }
-    const std::chrono::duration<double, std::milli> upload_time = std::chrono::steady_clock::now() - start;
-    pass_times_ = {{"upload", upload_time.count()}};
+    pass_times_ = {{"upload", upload_watch.milliseconds()}};
 
     const bool is_packed = wanted.lookup != MapLookup::sampler;
-    const auto access = wanted.lookup == MapLookup::software_stored ? vulkan::ElementAccess::storage
-                                                                    : vulkan::ElementAccess::texels;
-    if (!is_packed) pairs_ = vulkan::ElementBuffer(device, 1, VK_FORMAT_R32G32B32A32_UINT, access);
-    const auto pack = [&](vulkan::Commands& commands) {
+    // From where they were made, or else from the image.
+    const auto pack = [&](const std::vector<LevelTexels>& levels, uint32_t first_level) {
         if (!is_packed) return;
-        commands.begin_pass("pack");
-        pairs_ = tools.texel_pairs().record(commands, image_, access);
-        commands.end_pass();
+        const render::Stopwatch watch;
+        if (levels.empty())
+            pack_pairs(image, first_level, room_.pairs);
+        else
+            pack_pairs(levels, face_size, cube_count, room_.pairs);
+        pass_times_.push_back({"pack", watch.milliseconds()});
     };
     const auto submit = [&](vulkan::Commands& commands) {
         commands.submit();
@@ -94,28 +113,23 @@ EnvironmentMaps::EnvironmentMaps(MapTools& tools, EnvironmentSpan environments, 
     vulkan::Commands commands(device);
     if (wanted.filter) {
         commands.begin_pass("pyramid");
-        tools.pyramid().record(commands, image_, 0, cube_count, *wanted.filter,
+        tools.pyramid().record(commands, image, 0, cube_count, *wanted.filter,
                                is_staged ? Pyramid::Finest::staged : Pyramid::Finest::in_image);
         commands.end_pass();
     } else {
-        commands.transition(image_, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
-    }
-    pack(commands);
-    vulkan::Image prefiltered;
-    if (wanted.kernel) {
-        prefiltered = vulkan::Image(device, settings);
-        commands.begin_pass("prefilter");
-        tools.prefilter().record(commands, image_, wanted.lookup, pairs_, prefiltered, *wanted.kernel,
-                                 *wanted.filter);
-        commands.end_pass();
+        commands.transition(image, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
     }
     submit(commands);
+    pack(wanted.filter ? tools.pyramid().levels_on_host() : std::vector<LevelTexels>(), 0);
     if (!wanted.kernel) return;
 
-    image_ = std::move(prefiltered);
     vulkan::Commands after(device);
-    pack(after);
+    after.begin_pass("prefilter");
+    tools.prefilter().record(after, image, wanted.lookup, room_.pairs, *wanted.kernel, *wanted.filter);
+    after.end_pass();
     submit(after);
+    // Level 0 is not filtered; the tool has room for one cube.
+    pack(cube_count == 1 ? tools.prefilter().levels_on_host() : std::vector<LevelTexels>(), 1);
 }
 
 std::vector<std::vector<float>> EnvironmentMaps::read_levels(uint32_t cube) {
@@ -128,9 +142,10 @@ std::vector<std::vector<float>> EnvironmentMaps::read_levels(uint32_t cube) {
         faces.level = level;
         faces.base_layer = 6 * cube;
         faces.layer_count = 6;
-        const size_t texel_count = size_t{6} * image_.level_width(level) * image_.level_width(level);
+        const size_t texel_count =
+            size_t{6} * room_.image.level_width(level) * room_.image.level_width(level);
         std::vector<glm::u16vec4> texels(texel_count);
-        vulkan::read_back(image_, faces, std::as_writable_bytes(std::span(texels)));
+        vulkan::read_back(room_.image, faces, std::as_writable_bytes(std::span(texels)));
         std::vector<float> radiance;
         radiance.reserve(3 * texel_count);
         for (const glm::u16vec4& texel : texels) {

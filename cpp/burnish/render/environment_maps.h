@@ -3,8 +3,8 @@
 
 #include "burnish/render/prefilter.h"
 #include "burnish/render/pyramid.h"
-#include "burnish/render/texel_pairs.h"
 #include "burnish/scene/environment.h"
+#include "burnish/vulkan/element_buffer.h"
 
 #include <memory>
 #include <optional>
@@ -12,6 +12,12 @@
 #include <vector>
 
 namespace burnish {
+
+/// Where maps lie on the device.
+struct MapRoom {
+    vulkan::Image image;
+    vulkan::ElementBuffer pairs; ///< a single one where maps are not packed
+};
 
 /// What maps are made with, kept for the next ones. Not for several threads at once.
 class MapTools {
@@ -22,15 +28,19 @@ public:
     const std::shared_ptr<const vulkan::Device>& device() const { return device_; }
     Pyramid& pyramid() { return pyramid_; }
     Prefilter& prefilter();
-    TexelPairs& texel_pairs();
+    /// Room for maps of such faces: what was kept, if it is just that. Fresh memory takes longer to be had
+    /// than to be filled.
+    MapRoom take_room(const vulkan::ImageSettings& settings, MapLookup lookup);
+    /// Keeps the room of maps that are no longer wanted for the next ones, unless it is large.
+    void keep_room(MapRoom room);
     /// Gives back what is only kept for the next maps.
     void free();
 
 private:
     std::shared_ptr<const vulkan::Device> device_;
     Pyramid pyramid_;
-    std::unique_ptr<Prefilter> prefilter_;    // once a map calls for it
-    std::unique_ptr<TexelPairs> texel_pairs_; // likewise
+    std::unique_ptr<Prefilter> prefilter_; // once a map calls for it
+    std::optional<MapRoom> spare_;
 };
 
 struct MapSettings {
@@ -52,23 +62,25 @@ public:
                     const MapSettings& settings);
 
     /// The packed maps; a single pair where they were not packed.
-    const vulkan::ElementBuffer& pairs() const { return pairs_; }
+    const vulkan::ElementBuffer& pairs() const { return room_.pairs; }
 
     /// In SHADER_READ_ONLY_OPTIMAL; view() is the cube array, or the cube where there is one only.
-    const vulkan::Image& image() const { return image_; }
-    uint32_t face_size() const { return image_.settings().width; }
-    uint32_t count() const { return image_.settings().layers / 6; }
-    uint32_t level_count() const { return image_.settings().levels; }
-    /// "upload", as the host sees it, "pyramid", "prefilter" and "pack", as the device does, where they were
-    /// made.
+    const vulkan::Image& image() const { return room_.image; }
+    uint32_t face_size() const { return image().settings().width; }
+    uint32_t count() const { return image().settings().layers / 6; }
+    uint32_t level_count() const { return image().settings().levels; }
+    /// "upload" and "pack", as the host sees them, "pyramid" and "prefilter", as the device does, where they
+    /// were made.
     const std::vector<vulkan::PassTime>& pass_times() const { return pass_times_; }
 
     /// One cube's levels as stored, finest first: 6 n n 3 floats each (face, row, column, channel).
     std::vector<std::vector<float>> read_levels(uint32_t cube);
 
+    /// For MapTools::keep_room; nothing else may be asked of the maps then.
+    MapRoom release_room() && { return std::move(room_); }
+
 private:
-    vulkan::Image image_;
-    vulkan::ElementBuffer pairs_;
+    MapRoom room_;
     std::vector<vulkan::PassTime> pass_times_;
 };
 

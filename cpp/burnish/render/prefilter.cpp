@@ -14,13 +14,6 @@ namespace {
 
 constexpr uint32_t TEXEL_BYTES = 8;
 
-VkImageCopy finest_level(const vulkan::ImageSettings& settings) {
-    VkImageCopy copy{};
-    copy.srcSubresource = copy.dstSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, settings.layers};
-    copy.extent = {settings.width, settings.height, 1};
-    return copy;
-}
-
 } // namespace
 
 Prefilter::Prefilter(std::shared_ptr<const vulkan::Device> device)
@@ -55,31 +48,26 @@ const Prefilter::Scratch& Prefilter::scratch(const Key& key) {
         samples.insert(samples.end(), table.entries.begin(), table.entries.end());
         texels += 6 * size * size;
     }
-    scratch.samples =
-        vulkan::make_buffer(device_, std::as_bytes(std::span(samples)), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
+    scratch.samples = vulkan::make_buffer(device_, std::as_bytes(std::span(samples)),
+                                          VK_BUFFER_USAGE_STORAGE_TEXEL_BUFFER_BIT);
+    scratch.samples_view = vulkan::texel_view(scratch.samples, VK_FORMAT_R32G32B32A32_SFLOAT);
     scratch.texels =
         vulkan::Buffer(device_, VkDeviceSize{texels} * TEXEL_BYTES, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
     return scratches_.emplace(key, std::move(scratch)).first->second;
 }
 
-void Prefilter::record(vulkan::Commands& commands, vulkan::Image& pyramid, MapLookup lookup,
-                       const vulkan::ElementBuffer& pairs, vulkan::Image& prefiltered, PrefilterKernel kernel,
-                       PyramidFilter filter) {
-    const vulkan::ImageSettings& settings = pyramid.settings();
-    commands.transition(pyramid, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL);
-    commands.transition(prefiltered, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL);
-    const VkImageCopy finest = finest_level(settings);
-    vkCmdCopyImage(commands.handle(), pyramid.handle(), pyramid.layout(), prefiltered.handle(),
-                   prefiltered.layout(), 1, &finest);
-    commands.transition(pyramid, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
-
+void Prefilter::record(vulkan::Commands& commands, vulkan::Image& cubes, MapLookup lookup,
+                       const vulkan::ElementBuffer& pairs, PrefilterKernel kernel, PyramidFilter filter) {
+    const vulkan::ImageSettings& settings = cubes.settings();
+    last_ = nullptr;
     const vulkan::ComputePipeline& used = pipeline(kernel, settings.width, lookup);
     for (uint32_t cube = 0; cube < settings.layers / 6 && settings.levels > 1; ++cube) {
         const Scratch& room = scratch({settings.width, kernel, filter});
+        last_ = &room;
         if (cube == 0) {
             set_ = vulkan::DescriptorSet(used);
-            set_.bind(shared::BINDING_MAPS, pyramid.view_as(VK_IMAGE_VIEW_TYPE_CUBE_ARRAY), sampler_)
-                .bind(shared::BINDING_PREFILTER_SAMPLES, room.samples)
+            set_.bind(shared::BINDING_MAPS, cubes.view_as(VK_IMAGE_VIEW_TYPE_CUBE_ARRAY), sampler_)
+                .bind_texel_buffer(shared::BINDING_PREFILTER_SAMPLES, room.samples_view)
                 .bind(shared::BINDING_PREFILTER_TEXELS, room.texels);
             pairs.bind(set_, shared::BINDING_MAP_PAIRS, shared::BINDING_STORED_PAIRS);
         }
@@ -97,12 +85,22 @@ void Prefilter::record(vulkan::Commands& commands, vulkan::Image& pyramid, MapLo
             copy.imageExtent = {level.size, level.size, 1};
             copies.push_back(copy);
         }
-        commands.barrier();
-        vkCmdCopyBufferToImage(commands.handle(), room.texels.handle(), prefiltered.handle(),
-                               prefiltered.layout(), static_cast<uint32_t>(copies.size()), copies.data());
-        commands.barrier(); // the next cube writes the same room
+        commands.transition(cubes, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL);
+        vkCmdCopyBufferToImage(commands.handle(), room.texels.handle(), cubes.handle(), cubes.layout(),
+                               static_cast<uint32_t>(copies.size()), copies.data());
+        commands.transition(cubes,
+                            VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL); // the next cube's room is the same
     }
-    commands.transition(prefiltered, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
+}
+
+std::vector<LevelTexels> Prefilter::levels_on_host() const {
+    std::vector<LevelTexels> result;
+    if (!last_ || !device_->info().is_software || !last_->texels.is_mapped()) return result;
+    const uint64_t* texels = last_->texels.mapped<uint64_t>().data();
+    for (const Level& level : last_->levels)
+        result.push_back(
+            {texels + level.texel_begin, level.size, size_t{level.size} * level.size, level.size});
+    return result;
 }
 
 } // namespace burnish

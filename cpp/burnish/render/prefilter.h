@@ -3,6 +3,7 @@
 #pragma once
 
 #include "burnish/plan/map_lookup.h"
+#include "burnish/render/level_texels.h"
 #include "burnish/sampling/pyramid_filter.h"
 #include "burnish/vulkan/commands.h"
 #include "burnish/vulkan/device.h"
@@ -23,15 +24,17 @@ class Prefilter {
 public:
     explicit Prefilter(std::shared_ptr<const vulkan::Device> device);
 
-    /// Records the work, between begin_pass and end_pass of the caller if it is to be timed. Both are cube
-    /// arrays of RGBA16F with full levels and of one size; `pyramid` has all of them written, `prefiltered`
-    /// gets all of them. Both are in SHADER_READ_ONLY_OPTIMAL afterwards. This object must live, and record
-    /// nothing else, until the commands are done.
-    /// `filter` made the pyramid, which is read by `lookup`; `pairs`: the pyramid packed, or any where the
+    /// Records the work, between begin_pass and end_pass of the caller if it is to be timed. `cubes` is a
+    /// cube array of RGBA16F that holds a pyramid made by `filter`, in SHADER_READ_ONLY_OPTIMAL; its levels
+    /// from 1 on become the prefiltered ones. This object must live, and record nothing else, until the
+    /// commands are done. The pyramid is read by `lookup`; `pairs`: the pyramid packed, or any where the
     /// device's sampler reads it.
-    void record(vulkan::Commands& commands, vulkan::Image& pyramid, MapLookup lookup,
-                const vulkan::ElementBuffer& pairs, vulkan::Image& prefiltered, PrefilterKernel kernel,
-                PyramidFilter filter);
+    void record(vulkan::Commands& commands, vulkan::Image& cubes, MapLookup lookup,
+                const vulkan::ElementBuffer& pairs, PrefilterKernel kernel, PyramidFilter filter);
+
+    /// The levels from 1 on of the cube recorded last, once that is done and until the next call. Empty where
+    /// the host does not read the device's memory as fast as its own.
+    std::vector<LevelTexels> levels_on_host() const;
 
 private:
     struct Level {
@@ -44,6 +47,7 @@ private:
     struct Scratch {
         std::vector<Level> levels;
         vulkan::Buffer samples, texels;
+        vulkan::TexelView samples_view;
     };
 
     using Key = std::tuple<uint32_t, PrefilterKernel, PyramidFilter>; ///< face size first
@@ -56,6 +60,7 @@ private:
     std::map<std::tuple<PrefilterKernel, uint32_t, MapLookup>, vulkan::ComputePipeline> pipelines_;
     vulkan::Sampler sampler_;
     vulkan::DescriptorSet set_; // of the commands recorded last
+    const Scratch* last_ = nullptr;
     std::map<Key, Scratch> scratches_;
 };
 

@@ -5,7 +5,8 @@
 
 #include <algorithm>
 #include <bit>
-#include <cstring>
+#include <thread>
+#include <vector>
 
 #include "spirv/pyramid_border_comp.h"
 #include "spirv/pyramid_reduce_comp.h"
@@ -16,6 +17,7 @@ namespace {
 
 constexpr uint64_t SCRATCH_PAIRS = (uint64_t{64} << 20) / 16; // cubes are done together up to this size
 constexpr uint32_t PAIR_BYTES = 16;
+constexpr uint32_t LEAST_THREADED_SIZE = 128; // below, starting threads costs more than it saves
 constexpr uint32_t TEXEL_BYTES = 8;
 constexpr VkFormat PAIR_FORMAT = VK_FORMAT_R32G32B32A32_UINT;
 // Invocations beyond a level's edge load texels behind their face, though they store nothing: room behind the
@@ -164,9 +166,9 @@ uint32_t Pyramid::batch_size(uint32_t face_size, uint32_t cube_count) const {
     return batch;
 }
 
-bool Pyramid::stage(vulkan::Image& cubes, std::span<const std::vector<uint16_t>> texels,
+bool Pyramid::stage(vulkan::Image& cubes, std::span<const std::shared_ptr<const Environment>> environments,
                     PyramidFilter filter) {
-    const auto cube_count = static_cast<uint32_t>(texels.size());
+    const auto cube_count = static_cast<uint32_t>(environments.size());
     require_cubes(cubes, 0, cube_count);
     const uint32_t size = cubes.settings().width;
     if (size == 1 || batch_size(size, cube_count) != cube_count) return false;
@@ -174,15 +176,23 @@ bool Pyramid::stage(vulkan::Image& cubes, std::span<const std::vector<uint16_t>>
     if (!room.pairs.buffer().is_mapped()) return false;
 
     const VkBufferImageCopy finest = level_copy(0, size, 0, 0, cube_count);
-    const uint64_t row_bytes = uint64_t{size} * TEXEL_BYTES;
-    for (uint32_t layer = 0; layer < 6 * cube_count; ++layer) {
-        const auto* source =
-            reinterpret_cast<const std::byte*>(texels[layer / 6].data()) + layer % 6 * size * row_bytes;
-        std::byte* target = room.pairs.buffer().mapped().data() + finest.bufferOffset +
-                            uint64_t{layer} * face_pairs(size) * PAIR_BYTES;
-        for (uint32_t row = 0; row < size; ++row)
-            std::memcpy(target + uint64_t{row} * row_pairs(size) * PAIR_BYTES, source + row * row_bytes,
-                        row_bytes);
+    const auto half = room.pairs.buffer().mapped<uint16_t>();
+    const auto stage_rows = [&](uint32_t first, uint32_t step) {
+        for (uint32_t k = first; k < 6 * cube_count * size; k += step) {
+            const uint64_t pair =
+                uint64_t{k / size} * face_pairs(size) + uint64_t{k % size} * row_pairs(size);
+            environments[k / (6 * size)]->half_rgba(
+                k % (6 * size),
+                half.subspan((finest.bufferOffset + pair * PAIR_BYTES) / sizeof(uint16_t), 4 * size));
+        }
+    };
+    const uint32_t threads =
+        size < LEAST_THREADED_SIZE ? 1 : std::max(1u, std::thread::hardware_concurrency());
+    {
+        std::vector<std::jthread> others;
+        for (uint32_t k = 1; k < threads; ++k)
+            others.emplace_back(stage_rows, k, threads);
+        stage_rows(0, threads);
     }
     vulkan::Commands commands(device_);
     commands.transition(cubes, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL);
@@ -205,6 +215,7 @@ void Pyramid::record(vulkan::Commands& commands, vulkan::Image& cubes, uint32_t 
         commands.transition(cubes, is_general ? VK_IMAGE_LAYOUT_GENERAL : layout);
     };
     uint32_t batch = batch_size(face_size, cube_count);
+    last_ = nullptr;
     for (uint32_t done = 0; done < cube_count && face_size > 1; done += batch) {
         while (batch > cube_count - done)
             batch /= 2;
@@ -217,6 +228,7 @@ void Pyramid::record(vulkan::Commands& commands, vulkan::Image& cubes, uint32_t 
             commands.barrier();
         }
         record_levels(commands, room, batch, filter);
+        if (batch == cube_count) last_ = &room;
 
         move_to(VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL);
         std::vector<VkBufferImageCopy> copies;
@@ -228,6 +240,18 @@ void Pyramid::record(vulkan::Commands& commands, vulkan::Image& cubes, uint32_t 
                                cubes.layout(), static_cast<uint32_t>(copies.size()), copies.data());
     }
     move_to(VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
+}
+
+std::vector<LevelTexels> Pyramid::levels_on_host() const {
+    std::vector<LevelTexels> result;
+    if (!last_ || !device_->info().is_software || !last_->pairs.buffer().is_mapped()) return result;
+    const uint64_t* texels = last_->pairs.buffer().mapped<uint64_t>().data();
+    for (const Level& level : last_->levels) {
+        const size_t pitch = 2 * size_t{row_pairs(level.size)}, border = shared::PYRAMID_BORDER;
+        result.push_back({texels + 2 * size_t{level.begin} + border * (pitch + 1), pitch,
+                          pitch * face_rows(level.size), level.size});
+    }
+    return result;
 }
 
 } // namespace burnish

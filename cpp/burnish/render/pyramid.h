@@ -1,7 +1,9 @@
 // Mip pyramids of cube maps: every level filtered from the one above it, across the edges of the faces.
 #pragma once
 
+#include "burnish/render/level_texels.h"
 #include "burnish/sampling/pyramid_filter.h"
+#include "burnish/scene/environment.h"
 #include "burnish/vulkan/commands.h"
 #include "burnish/vulkan/device.h"
 #include "burnish/vulkan/element_buffer.h"
@@ -44,11 +46,18 @@ public:
                 PyramidFilter filter, Finest finest = Finest::in_image);
 
     /// Where the host sees the device's memory and all cubes of such an image can be done at once: writes
-    /// level 0, half RGBA of six faces for each cube, into the buffer and from there into the image, so that
+    /// level 0 of the environments, a cube each, into the buffer and from there into the image, so that
     /// `record` need not copy it back. Submits and waits. False where that cannot be: upload the image then.
-    bool stage(vulkan::Image& cubes, std::span<const std::vector<uint16_t>> texels, PyramidFilter filter);
+    bool stage(vulkan::Image& cubes, std::span<const std::shared_ptr<const Environment>> environments,
+               PyramidFilter filter);
+    /// All levels of the cubes recorded last, once that is done and until the next call. Empty where they
+    /// were not done at once, or where the host does not read the device's memory as fast as its own.
+    std::vector<LevelTexels> levels_on_host() const;
     /// Gives back the room that is kept for the next maps.
-    void free_scratches() { scratches_.clear(); }
+    void free_scratches() {
+        scratches_.clear();
+        last_ = nullptr;
+    }
 
 private:
     /// Invocations of a workgroup of the reduction.
@@ -83,6 +92,7 @@ private:
     std::map<vulkan::ElementAccess, vulkan::ComputePipeline> borders_;
     std::map<std::tuple<PyramidFilter, Group, vulkan::ElementAccess>, vulkan::ComputePipeline> reductions_;
     std::map<std::pair<uint32_t, uint32_t>, Scratch> scratches_; // by face size and cubes
+    const Scratch* last_ = nullptr; // of the last call, if it did all cubes at once
 };
 
 } // namespace burnish

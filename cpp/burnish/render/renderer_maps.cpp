@@ -17,9 +17,12 @@ std::string describe_maps(size_t count, const Environment& first) {
 
 std::vector<std::shared_ptr<EnvironmentMaps>> Renderer::prepare_maps(const Plan& plan,
                                                                      std::vector<vulkan::PassTime>& times) {
-    std::erase_if(maps_, [](const CachedMaps& cached) {
-        return std::any_of(cached.environments.begin(), cached.environments.end(),
-                           [](const auto& one) { return one.expired(); });
+    std::erase_if(maps_, [&](const CachedMaps& cached) {
+        const bool is_expired = std::any_of(cached.environments.begin(), cached.environments.end(),
+                                            [](const auto& one) { return one.expired(); });
+        if (is_expired && cached.maps.use_count() == 1)
+            map_tools_.keep_room(std::move(*cached.maps).release_room());
+        return is_expired;
     });
     const auto has_pass = [&](const char* name) {
         return std::any_of(plan.passes.begin(), plan.passes.end(),

@@ -247,11 +247,16 @@ ShadeTables make_shade_tables(const vulkan::DevicePointer& device, const Scene& 
         }
     }
 
+    // A map's integrals take longer than to upload it.
+    const bool has_diffuse = std::any_of(plan.classes.begin(), plan.classes.end(),
+                                         [](const ShadeClass& one) { return one.traits.has_diffuse; });
     std::vector<shared::MapRecord> maps(plan.environments.size());
     for (const MapSet& set : plan.map_sets)
         for (uint32_t layer = 0; layer < set.environments.size(); ++layer) {
             const uint32_t k = set.environments[layer];
-            maps[k] = map_record(*plan.environments[k], layer, cache.irradiance(plan.whole_environments[k]),
+            maps[k] = map_record(*plan.environments[k], layer,
+                                 has_diffuse ? cache.irradiance(plan.whole_environments[k])
+                                             : IrradianceCoefficients{},
                                  plan.suns[k]);
         }
 

@@ -1,42 +1,145 @@
 #include "burnish/render/texel_pairs.h"
 
 #include "burnish/plan/map_lookup.h"
-#include "shared/texel_pairs.h"
+#include "burnish/sampling/cube_texels.h"
+#include "burnish/scene/half.h"
+#include "burnish/vulkan/commands.h"
+#include "burnish/vulkan/transfer.h"
 
-#include "spirv/lookup_pack_pairs_comp.h"
+#include <algorithm>
+#include <array>
+#include <thread>
+#include <vector>
+
+#include <glm/gtc/packing.hpp>
 
 namespace burnish {
 
 namespace {
 
 constexpr uint32_t TEXEL_BYTES = 8;
+constexpr uint32_t LEAST_THREADED_SIZE = 128; // below, starting threads costs more than it saves
+
+/// The texels of one level of a cube, found by their places in the orientation of the pairs.
+class CubeLevel {
+public:
+    explicit CubeLevel(const LevelTexels& texels) : texels_(texels), size_(texels.size) {
+        for (uint32_t face = 0; face < 6; ++face)
+            axes_[face] = face_axes(face);
+    }
+
+    /// Texels of a row of a bordered face, from the border's corner on; `row` has room for them.
+    void read_row(uint32_t face, int y, std::span<uint64_t> row) const {
+        const int n = int(size_);
+        const bool is_border = y < 0 || y >= n;
+        const std::ptrdiff_t begin = index(face, 0, y), step = n > 1 ? index(face, 1, y) - begin : 0;
+        for (int x = 0; x < n; ++x)
+            row[size_t(x) + 1] = texels_.first[begin + x * step];
+        row.front() = is_border ? corner(face, -1, y) : texel(face, -1, y);
+        row.back() = is_border ? corner(face, n, y) : texel(face, n, y);
+    }
+
+private:
+    /// Of a texel of the face, or of the one that lies as deep inside the neighbouring face as (x, y) is
+    /// beyond the edge.
+    std::ptrdiff_t index(uint32_t face, int x, int y) const {
+        // Coordinates of texel centres are multiples of 1/size, a power of two: exact.
+        const double texel = 1.0 / size_;
+        const double u = (2 * x + 1) * texel - 1.0, v = (2 * y + 1) * texel - 1.0;
+        const bool is_beyond = std::max(std::abs(u), std::abs(v)) > 1.0;
+        const double a = std::clamp(u, -1.0, 1.0), b = std::clamp(v, -1.0, 1.0);
+        const double side = (face % 2 ? -1.0 : 1.0) * (is_beyond ? 1.0 - texel : 1.0);
+        const glm::dvec3 point = face < 2   ? glm::dvec3(side, b, a)
+                                 : face < 4 ? glm::dvec3(a, side, b)
+                                            : glm::dvec3(a, b, side);
+        uint32_t owner = face;
+        for (uint32_t other = 0; other < 6 && is_beyond; ++other)
+            if (glm::dot(axes_[other].axis, point) == 1.0) owner = other;
+        const auto place = [&](const glm::dvec3& axis) {
+            return std::ptrdiff_t((glm::dot(axis, point) + 1.0) * (0.5 * size_));
+        };
+        return std::ptrdiff_t(owner * texels_.face_pitch) +
+               place(axes_[owner].down) * std::ptrdiff_t(texels_.row_pitch) + place(axes_[owner].right);
+    }
+
+    uint64_t texel(uint32_t face, int x, int y) const { return texels_.first[index(face, x, y)]; }
+
+    /// Beyond two edges: the mean of the three texels that meet there.
+    uint64_t corner(uint32_t face, int x, int y) const {
+        const int last = int(size_) - 1;
+        const int inside_x = std::clamp(x, 0, last), inside_y = std::clamp(y, 0, last);
+        const std::array<glm::vec4, 3> around{glm::unpackHalf4x16(texel(face, inside_x, inside_y)),
+                                              glm::unpackHalf4x16(texel(face, inside_x, y)),
+                                              glm::unpackHalf4x16(texel(face, x, inside_y))};
+        const glm::vec4 mean = (around[0] + around[1] + around[2]) / 3.0f;
+        return half_bits(mean.r) | uint64_t(half_bits(mean.g)) << 16 | uint64_t(half_bits(mean.b)) << 32;
+    }
+
+    LevelTexels texels_;
+    uint32_t size_;
+    std::array<FaceAxes, 6> axes_;
+};
+
+glm::uvec4 pair_of(uint64_t left, uint64_t right) {
+    const auto low = [](uint64_t texel) { return uint32_t(texel & 0xffffu); };
+    const auto high = [](uint64_t texel) { return uint32_t(texel & 0xffff0000u); };
+    return {low(left) | low(right) << 16, high(left) >> 16 | high(right),
+            low(left >> 32) | low(right >> 32) << 16, 0u};
+}
+
+void pack_level(const LevelTexels& texels, glm::uvec4* pairs) {
+    const uint32_t size = texels.size;
+    const CubeLevel level(texels);
+    const auto pack_faces = [&](uint32_t first, uint32_t step) {
+        std::vector<uint64_t> row(size + 2);
+        for (uint32_t face = first; face < 6; face += step) {
+            glm::uvec4* pair = pairs + size_t{face} * (size + 1) * (size + 2);
+            for (uint32_t y = 0; y < size + 2; ++y) {
+                level.read_row(face, int(y) - 1, row);
+                for (uint32_t x = 0; x <= size; ++x)
+                    *pair++ = pair_of(row[x], row[x + 1]);
+            }
+        }
+    };
+    const uint32_t threads =
+        size < LEAST_THREADED_SIZE ? 1 : std::clamp(std::thread::hardware_concurrency(), 1u, 6u);
+    std::vector<std::jthread> others;
+    for (uint32_t k = 1; k < threads; ++k)
+        others.emplace_back(pack_faces, k, threads);
+    pack_faces(0, threads);
+}
 
 } // namespace
 
-TexelPairs::TexelPairs(std::shared_ptr<const vulkan::Device> device)
-    : device_(std::move(device)), shader_(device_, "lookup/pack_pairs.comp", lookup_pack_pairs_comp_spv) {}
-
-const TexelPairs::Pipelines& TexelPairs::pipelines(vulkan::ElementAccess access) {
-    const auto found = pipelines_.find(access);
-    if (found != pipelines_.end()) return found->second;
-    vulkan::SpecializationConstants constants;
-    constants.set(shared::SPEC_PACK_IS_STORED, access == vulkan::ElementAccess::storage);
-    Pipelines made;
-    made.inside = vulkan::ComputePipeline(device_, shader_, constants);
-    made.border = vulkan::ComputePipeline(device_, shader_, constants.set(shared::SPEC_PACK_BORDER, true));
-    return pipelines_.emplace(access, std::move(made)).first->second;
+void pack_pairs(std::span<const LevelTexels> levels, uint32_t face_size, uint32_t cube_count,
+                const vulkan::ElementBuffer& pairs) {
+    if (levels.empty()) return;
+    uint64_t first = 0; // pairs of a cube before those levels
+    for (uint32_t size = face_size; size > levels.front().size; size /= 2)
+        first += level_pair_count(size);
+    uint64_t count = 0;
+    for (const LevelTexels& level : levels)
+        count += level_pair_count(level.size);
+    const bool is_mapped = pairs.buffer().is_mapped();
+    std::vector<glm::uvec4> staged(is_mapped ? 0 : count);
+    for (uint32_t cube = 0; cube < cube_count; ++cube) {
+        const uint64_t begin = cube * cube_pair_count(face_size) + first;
+        glm::uvec4* pair = is_mapped ? pairs.buffer().mapped<glm::uvec4>().data() + begin : staged.data();
+        for (LevelTexels level : levels) {
+            level.first += 6 * cube * level.face_pitch;
+            pack_level(level, pair);
+            pair += level_pair_count(level.size);
+        }
+        if (!is_mapped)
+            vulkan::upload(pairs.buffer(), std::as_bytes(std::span(staged)), begin * sizeof(glm::uvec4));
+    }
 }
 
-vulkan::ElementBuffer TexelPairs::record(vulkan::Commands& commands, vulkan::Image& cubes,
-                                         vulkan::ElementAccess access) {
+void pack_pairs(vulkan::Image& cubes, uint32_t first_level, const vulkan::ElementBuffer& pairs) {
     const vulkan::ImageSettings& settings = cubes.settings();
-    const uint64_t cube_pairs = cube_pair_count(settings.width);
-    vulkan::ElementBuffer pairs(device_, cube_pairs * (settings.layers / 6), VK_FORMAT_R32G32B32A32_UINT,
-                                access);
-
     std::vector<VkBufferImageCopy> copies;
     uint64_t texels = 0;
-    for (uint32_t level = 0; level < settings.levels; ++level) {
+    for (uint32_t level = first_level; level < settings.levels; ++level) {
         const uint32_t size = settings.width >> level;
         VkBufferImageCopy copy{};
         copy.bufferOffset = texels * TEXEL_BYTES;
@@ -45,33 +148,22 @@ vulkan::ElementBuffer TexelPairs::record(vulkan::Commands& commands, vulkan::Ima
         copies.push_back(copy);
         texels += uint64_t(settings.layers) * size * size;
     }
-    texels_ = vulkan::ElementBuffer(device_, texels, VK_FORMAT_R32G32_UINT, access);
+    if (copies.empty()) return;
+    const vulkan::Buffer room(cubes.device(), texels * TEXEL_BYTES, 0, vulkan::MemoryUse::read_back);
+    vulkan::Commands commands(cubes.device());
     commands.transition(cubes, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL);
-    vkCmdCopyImageToBuffer(commands.handle(), cubes.handle(), cubes.layout(), texels_.buffer().handle(),
+    vkCmdCopyImageToBuffer(commands.handle(), cubes.handle(), cubes.layout(), room.handle(),
                            uint32_t(copies.size()), copies.data());
     commands.transition(cubes, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
-    commands.barrier();
+    commands.submit();
 
-    const auto& [inside, border] = pipelines(access);
-    set_ = vulkan::DescriptorSet(inside);
-    texels_.bind(set_, shared::BINDING_PACK_TEXELS, shared::BINDING_PACK_STORED_TEXELS);
-    pairs.bind(set_, shared::BINDING_PACK_PAIRS, shared::BINDING_PACK_STORED_PAIRS);
-    const auto dispatch = [&](const vulkan::ComputePipeline& pipeline, bool is_border) {
-        uint32_t begin = 0;
-        for (const VkBufferImageCopy& copy : copies) {
-            const uint32_t size = copy.imageExtent.width;
-            const shared::PackRecord push{size, uint32_t(copy.bufferOffset / TEXEL_BYTES), begin,
-                                          uint32_t(cube_pairs)};
-            const uint32_t items = is_border ? 4 * size + 2 : size + 1, per_group = pipeline.local_size()[0];
-            commands.dispatch(pipeline, set_, vulkan::push_bytes(push), (items + per_group - 1) / per_group,
-                              is_border ? 1 : size + 2, settings.layers);
-            begin += level_pair_count(size);
-        }
-        commands.barrier();
-    };
-    dispatch(inside, false);
-    dispatch(border, true);
-    return pairs;
+    std::vector<LevelTexels> levels;
+    for (const VkBufferImageCopy& copy : copies) {
+        const size_t size = copy.imageExtent.width;
+        levels.push_back({room.mapped<uint64_t>().data() + copy.bufferOffset / TEXEL_BYTES, size, size * size,
+                          uint32_t(size)});
+    }
+    pack_pairs(levels, settings.width, settings.layers / 6, pairs);
 }
 
 } // namespace burnish

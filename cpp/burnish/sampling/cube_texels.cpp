@@ -8,26 +8,27 @@ namespace burnish {
 
 std::vector<double> texel_solid_angles(uint32_t face_size) {
     // The integral of du dv / (1 + u^2 + v^2)^(3/2) from (0, 0) is atan(u v / sqrt(1 + u^2 + v^2)): a
-    // rectangle is its mixed difference.
-    const auto corner_row = [&](uint32_t row) {
-        const double v = 2.0 * row / face_size - 1.0;
-        std::vector<double> corners(face_size + 1);
-        for (uint32_t column = 0; column <= face_size; ++column) {
-            const double u = 2.0 * column / face_size - 1.0;
-            corners[column] = std::atan2(u * v, std::sqrt(1.0 + u * u + v * v));
+    // rectangle is its mixed difference. A quarter of a face is enough, and of that one side of its diagonal.
+    const size_t n = face_size, quarter = (n + 1) / 2;
+    std::vector<double> corners((quarter + 1) * (quarter + 1));
+    for (size_t row = 0; row <= quarter; ++row) {
+        const double v = 2.0 * double(row) / face_size - 1.0;
+        for (size_t column = 0; column <= row; ++column) {
+            const double u = 2.0 * double(column) / face_size - 1.0;
+            corners[row * (quarter + 1) + column] = corners[column * (quarter + 1) + row] =
+                std::atan2(u * v, std::sqrt(1.0 + u * u + v * v));
         }
-        return corners;
-    };
-    std::vector<double> solid_angles(size_t{face_size} * face_size);
-    std::vector<double> above = corner_row(0);
-    for (uint32_t row = 0; row < (face_size + 1) / 2; ++row) {
-        const std::vector<double> below = corner_row(row + 1);
-        for (uint32_t column = 0; column < face_size; ++column) {
+    }
+    std::vector<double> solid_angles(n * n);
+    for (size_t row = 0; row < quarter; ++row) {
+        const double* above = &corners[row * (quarter + 1)];
+        const double* below = above + quarter + 1;
+        for (size_t column = 0; column < quarter; ++column) {
             const double value = (below[column + 1] - below[column]) - (above[column + 1] - above[column]);
-            solid_angles[size_t{row} * face_size + column] = value;
-            solid_angles[size_t{face_size - 1 - row} * face_size + column] = value;
+            for (const size_t y : {row, n - 1 - row})
+                for (const size_t x : {column, n - 1 - column})
+                    solid_angles[y * n + x] = value;
         }
-        above = below;
     }
     return solid_angles;
 }

@@ -39,9 +39,9 @@ SampleTable build_spherical_table(uint32_t size, uint32_t face_size, PyramidFilt
     const double texels =
         double(face_size) * face_size / (4.0 * lookup_variance(filter)) * std::exp2(2.0 * SPHERICAL_BIAS);
     SampleTable table;
-    for (uint32_t k = 0; k < SPHERICAL_SAMPLES; ++k) {
-        const glm::dvec4 mixture = mixtures[k / 2]; // of the first row: an aspect of 1
-        const glm::dvec2 y = (k % 2 ? -1.0 : 1.0) * glm::dvec2(mixture);
+    for (uint32_t k = 0; k < SPHERICAL_SAMPLES / 2; ++k) {
+        const glm::dvec4 mixture = mixtures[k]; // of the first row: an aspect of 1
+        const glm::dvec2 y(mixture);
         const double angle = scale * glm::length(y), deviation = scale * mixture.z;
         const glm::dvec2 slope = y / glm::length(y) * std::tan(0.5 * angle);
         table.entries.emplace_back(slope.x, slope.y, mixture.w, texels * deviation * deviation);

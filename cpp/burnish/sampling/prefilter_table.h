@@ -22,8 +22,9 @@ float prefiltered_roughness(uint32_t size);
 SampleTable build_prefilter_table(uint32_t level, uint32_t face_size);
 
 /// The Gaussian of a level of `size` texels, SPHERICAL_LEVEL_VARIANCE (2/size)^2 per axis, as a mixture of
-/// the matched sampler: entries (slope along x and y, weight, face_texels v/(4 c_f)), whole phases. The
-/// lookup goes to where the slope as a half-vector's mirrors the normal; v is the variance of its directions.
+/// the matched sampler: entries (slope along x and y, weight, face_texels v/(4 c_f)), whole phases. An entry
+/// stands for two lookups, at that slope and at the opposite one; a lookup goes to where the slope as a
+/// half-vector's mirrors the normal; v is the variance of its directions.
 SampleTable build_spherical_table(uint32_t size, uint32_t face_size, PyramidFilter filter);
 
 /// A variance of directions per axis as a share of what a lookup at level 1 of such a map has.

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 #include <optional>
+#include <span>
+#include <utility>
 
 #include "shared/constants.h"
 
@@ -17,18 +19,15 @@ constexpr double RING_EXCESS = 0.02;
 
 class SunSearch {
 public:
-    SunSearch(uint32_t face_size, std::vector<float>& radiance)
-        : size_(face_size), radiance_(radiance), solid_angles_(texel_solid_angles(face_size)) {
+    explicit SunSearch(const CubeTexels& cube)
+        : size_(require_texels(cube)), texels_(cube.radiance), solid_angles_(texel_solid_angles(size_)) {
         for (uint32_t face = 0; face < 6; ++face)
             axes_.push_back(face_axes(face));
-        for (size_t texel = 0; texel < radiance_.size() / 3; ++texel)
-            light_ += grey(texel) * solid_angle(texel);
+        light_ = integral();
     }
 
     std::optional<Sun> take_brightest() {
-        size_t peak = 0;
-        for (size_t texel = 1; texel < radiance_.size() / 3; ++texel)
-            if (grey(texel) > grey(peak)) peak = texel;
+        const size_t peak = brightest();
         if (!(grey(peak) > LEAST_CONTRAST * light_ / (4.0 * std::numbers::pi))) return {};
 
         std::vector<size_t> cap, ring;
@@ -43,10 +42,40 @@ public:
         return take(cap, background);
     }
 
+    /// The map without the suns taken; empty if there were none.
+    std::vector<float> take_rest() { return std::move(rest_); }
+
 private:
+    double integral() const {
+        double sum = 0.0;
+        for (size_t row = 0; row < size_t{6} * size_; ++row) {
+            const float* rgb = texels_.data() + 3 * size_ * row;
+            const double* solid_angle = solid_angles_.data() + size_ * (row % size_);
+            double of_row = 0.0;
+            for (size_t column = 0; column < size_; ++column, rgb += 3)
+                of_row += (double(rgb[0]) + rgb[1] + rgb[2]) * solid_angle[column];
+            sum += of_row;
+        }
+        return sum / 3.0;
+    }
+
+    size_t brightest() const {
+        size_t peak = 0;
+        double most = -1.0;
+        for (size_t texel = 0; texel < texels_.size() / 3; ++texel) {
+            const float* rgb = texels_.data() + 3 * texel;
+            const double sum = double(rgb[0]) + rgb[1] + rgb[2];
+            if (sum > most) {
+                most = sum;
+                peak = texel;
+            }
+        }
+        return peak;
+    }
+
     static double mean(glm::dvec3 v) { return (v.x + v.y + v.z) / 3.0; }
     glm::dvec3 color(size_t texel) const {
-        return {radiance_[3 * texel], radiance_[3 * texel + 1], radiance_[3 * texel + 2]};
+        return {texels_[3 * texel], texels_[3 * texel + 1], texels_[3 * texel + 2]};
     }
     double grey(size_t texel) const { return mean(color(texel)); }
     double solid_angle(size_t texel) const { return solid_angles_[texel % solid_angles_.size()]; }
@@ -60,7 +89,7 @@ private:
 
     void gather(glm::dvec3 middle, std::vector<size_t>& cap, std::vector<size_t>& ring) const {
         const double radius = std::max(CAP_RADIUS, CAP_HALF_TEXELS / size_);
-        for (size_t texel = 0; texel < radiance_.size() / 3; ++texel) {
+        for (size_t texel = 0; texel < texels_.size() / 3; ++texel) {
             const glm::dvec3 chord = direction(texel) - middle;
             const double chord2 = glm::dot(chord, chord);
             if (chord2 <= radius * radius)
@@ -75,7 +104,7 @@ private:
         std::vector<double> values(texels.size());
         for (int c = 0; c < 3; ++c) {
             for (size_t k = 0; k < texels.size(); ++k)
-                values[k] = radiance_[3 * texels[k] + c];
+                values[k] = texels_[3 * texels[k] + c];
             std::sort(values.begin(), values.end());
             result[c] = 0.5 * (values[(values.size() - 1) / 2] + values[values.size() / 2]);
         }
@@ -83,6 +112,10 @@ private:
     }
 
     Sun take(const std::vector<size_t>& cap, glm::dvec3 background) {
+        if (rest_.empty()) {
+            rest_.assign(texels_.begin(), texels_.end());
+            texels_ = rest_;
+        }
         Sun sun;
         glm::dvec3 centroid(0.0);
         std::vector<double> weights;
@@ -99,14 +132,15 @@ private:
             sun.variance += 0.5 * weights[k] * glm::dot(chord, chord);
             light_ += (mean(background) - grey(cap[k])) * solid_angle(cap[k]);
             for (int c = 0; c < 3; ++c)
-                radiance_[3 * cap[k] + c] = float(background[c]);
+                rest_[3 * cap[k] + c] = float(background[c]);
         }
         sun.variance /= mean(sun.flux);
         return sun;
     }
 
     uint32_t size_;
-    std::vector<float>& radiance_;
+    std::span<const float> texels_; ///< of the cube, and of rest_ once there is one
+    std::vector<float> rest_;
     std::vector<double> solid_angles_;
     std::vector<FaceAxes> axes_;
     double light_ = 0.0; ///< integral of the map
@@ -116,14 +150,13 @@ private:
 
 SunSplit split_suns(const CubeTexels& cube) {
     SunSplit split;
-    split.radiance.assign(cube.radiance.begin(), cube.radiance.end());
-    SunSearch search(require_texels(cube), split.radiance);
+    SunSearch search(cube);
     while (split.suns.size() < shared::MAX_SUNS) {
         const std::optional<Sun> sun = search.take_brightest();
         if (!sun) break;
         split.suns.push_back(*sun);
     }
-    if (split.suns.empty()) split.radiance.clear();
+    split.radiance = search.take_rest();
     return split;
 }
 

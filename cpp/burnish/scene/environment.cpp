@@ -4,31 +4,52 @@
 #include <bit>
 #include <cmath>
 #include <limits>
+#include <span>
 #include <stdexcept>
 #include <utility>
 
 #include "burnish/error.h"
 #include "burnish/scene/environment_texels.h"
+#include "burnish/scene/half.h"
 
 namespace burnish {
 
 namespace {
 
-// Float to half for values in [0, HALF_MAX], to nearest even. Below 2^-14 a half is subnormal, a multiple of
-// 2^-24: adding 0.5 makes the float unit round at just that step. Above, the carry of the added bits does the
-// rounding.
-uint16_t half_bits(float value) {
-    constexpr uint32_t SMALLEST_NORMAL = 0x38800000u; // 2^-14
-    const uint32_t bits = std::bit_cast<uint32_t>(value);
-    const uint32_t subnormal = std::bit_cast<uint32_t>(value + 0.5f) - std::bit_cast<uint32_t>(0.5f);
-    const uint32_t rebased = bits - ((127u - 15u) << 23);
-    const uint32_t normal = (rebased + 0xFFFu + ((bits >> 13) & 1u)) >> 13;
-    return static_cast<uint16_t>(bits < SMALLEST_NORMAL ? subnormal : normal);
-}
-
 void append_count(std::string& text, uint64_t count, const char* fault, const char* repair) {
     if (count > 0) {
         text += message(text.empty() ? "" : ", ", count, " ", fault, " (", repair, ")");
+    }
+}
+
+void clean_block(std::span<float> radiance, float upper_limit, TexelReport& report) {
+    for (size_t texel = 0; texel + 3 <= radiance.size(); texel += 3) {
+        bool is_good = true, has_nan = false, has_infinity = false, has_above = false;
+        for (float& value : radiance.subspan(texel, 3)) {
+            if (value >= 0.0f && value <= upper_limit) {
+                value += 0.0f; // -0 has bits that no half is made from
+                report.largest = std::max(report.largest, value);
+                continue;
+            }
+            is_good = false;
+            if (std::isnan(value)) {
+                has_nan = true;
+                value = 0.0f;
+            } else if (std::isinf(value)) {
+                has_infinity = true;
+                value = value > 0.0f ? HALF_MAX : 0.0f;
+            } else {
+                report.largest = std::max(report.largest, value);
+                has_above = has_above || value > upper_limit;
+                value = std::clamp(value, 0.0f, upper_limit);
+            }
+        }
+        if (is_good) continue;
+        uint64_t& count = has_nan        ? report.not_a_number
+                          : has_infinity ? report.infinite
+                          : has_above    ? report.above_half
+                                         : report.negative;
+        ++count;
     }
 }
 
@@ -61,39 +82,21 @@ void require_face_size(uint32_t face_size) {
 }
 
 TexelReport clean_texels(std::vector<float>& radiance, float upper_limit) {
+    // Good values, in [+0, upper_limit], are those whose bits as an integer are at most the limit's: the
+    // largest of a block tells whether all of it, as nearly always, can pass without further tests.
+    constexpr size_t BLOCK = 3 * 512;
+    const uint32_t limit_bits = std::bit_cast<uint32_t>(upper_limit);
     TexelReport report;
-    for (size_t texel = 0; texel + 3 <= radiance.size(); texel += 3) {
-        // One comparison per channel lets good texels, nearly all of them, pass without further tests.
-        bool is_good = true;
-        for (size_t channel = texel; channel < texel + 3; ++channel) {
-            is_good = is_good && radiance[channel] >= 0.0f && radiance[channel] <= upper_limit;
-        }
-        bool has_nan = false;
-        bool has_infinity = false;
-        bool has_above = false;
-        for (size_t channel = texel; channel < texel + 3; ++channel) {
-            float& value = radiance[channel];
-            if (is_good) {
-                report.largest = std::max(report.largest, value);
-            } else if (std::isnan(value)) {
-                has_nan = true;
-                value = 0.0f;
-            } else if (std::isinf(value)) {
-                has_infinity = true;
-                value = value > 0.0f ? HALF_MAX : 0.0f;
-            } else {
-                report.largest = std::max(report.largest, value);
-                has_above = has_above || value > upper_limit;
-                value = std::clamp(value, 0.0f, upper_limit);
-            }
-        }
-        if (!is_good) {
-            uint64_t& count = has_nan        ? report.not_a_number
-                              : has_infinity ? report.infinite
-                              : has_above    ? report.above_half
-                                             : report.negative;
-            ++count;
-        }
+    for (size_t begin = 0; begin < radiance.size(); begin += BLOCK) {
+        const std::span<float> block =
+            std::span(radiance).subspan(begin, std::min(BLOCK, radiance.size() - begin));
+        uint32_t most_bits = 0;
+        for (const float value : block)
+            most_bits = std::max(most_bits, std::bit_cast<uint32_t>(value));
+        if (most_bits <= limit_bits)
+            report.largest = std::max(report.largest, std::bit_cast<float>(most_bits));
+        else
+            clean_block(block, upper_limit, report);
     }
     return report;
 }
@@ -147,16 +150,21 @@ Environment Environment::from_lat_long(uint32_t height, uint32_t width, const st
 }
 
 std::vector<uint16_t> Environment::half_rgba() const {
+    const size_t row_halves = size_t{4} * face_size_;
+    std::vector<uint16_t> half(6 * face_size_ * row_halves);
+    for (uint32_t row = 0; row < 6 * face_size_; ++row)
+        half_rgba(row, std::span(half).subspan(row * row_halves, row_halves));
+    return half;
+}
+
+void Environment::half_rgba(uint32_t row, std::span<uint16_t> half) const {
     constexpr uint16_t HALF_ONE = 0x3C00;
-    const size_t texel_count = radiance_.size() / 3;
-    std::vector<uint16_t> half(texel_count * 4);
-    for (size_t texel = 0; texel < texel_count; ++texel) {
-        for (size_t channel = 0; channel < 3; ++channel) {
-            half[4 * texel + channel] = half_bits(radiance_[3 * texel + channel]);
-        }
+    const float* rgb = radiance_.data() + size_t{3} * face_size_ * row;
+    for (size_t texel = 0; texel < face_size_; ++texel) {
+        for (size_t channel = 0; channel < 3; ++channel)
+            half[4 * texel + channel] = half_bits(rgb[3 * texel + channel]);
         half[4 * texel + 3] = HALF_ONE;
     }
-    return half;
 }
 
 glm::vec3 cube_direction(uint32_t face, float u, float v) {

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -60,6 +61,8 @@ public:
 
     /// The faces as half floats, alpha 1, for upload: rounded to nearest even, nothing else. 6 N N 4 values.
     std::vector<uint16_t> half_rgba() const;
+    /// The same of one row of all rows of all faces, 4 N values.
+    void half_rgba(uint32_t row, std::span<uint16_t> half) const;
 
     /// world_from_environment: turns the map in the world; a lookup for world direction w reads
     /// transpose(rotation) * w.

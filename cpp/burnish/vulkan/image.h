@@ -18,6 +18,8 @@ struct ImageSettings {
     bool is_cube = false;
     VkImageUsageFlags usage = VK_IMAGE_USAGE_SAMPLED_BIT; // transfer in both directions is always allowed
     VkSampleCountFlagBits samples = VK_SAMPLE_COUNT_1_BIT;
+
+    bool operator==(const ImageSettings&) const = default;
 };
 
 /// Levels of a full pyramid down to one texel.

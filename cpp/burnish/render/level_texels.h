@@ -1,0 +1,16 @@
+// Levels of cubes where the host reads them.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+namespace burnish {
+
+/// One level of some cubes: half RGBA in Vulkan's order and orientation, 8 bytes a texel, face after face.
+struct LevelTexels {
+    const uint64_t* first = nullptr; ///< the upper left texel of the first face
+    size_t row_pitch = 0, face_pitch = 0;
+    uint32_t size = 0; ///< texels along an edge
+};
+
+} // namespace burnish

@@ -1,0 +1,64 @@
+"""Maps that change from frame to frame: what an earlier one leaves behind is never seen."""
+
+import numpy as np
+import pytest
+
+import burnish
+from burnish import environments
+from engine_support import smooth_environment_faces
+
+
+def scene_under(environment):
+    scene = burnish.Scene.sphere(burnish.Material(lobes=[burnish.KurtLobe(roughness=0.2)]))
+    scene.environment = environment
+    return scene
+
+
+def maps(rng):
+    """Of one size but the third; the black one shows what an earlier one left."""
+    yield environments.spots(1, 32)
+    yield burnish.Environment.from_faces(rng.uniform(0, 2, (6, 32, 32, 3)).astype(np.float32))
+    yield burnish.Environment.from_faces(smooth_environment_faces(16))
+    yield environments.spots(2, 32)
+    yield burnish.Environment.from_faces(np.zeros((6, 32, 32, 3), np.float32))
+    yield environments.spots(3, 32)
+
+
+@pytest.mark.parametrize("lookup", ["software", "sampler"])
+@pytest.mark.parametrize(
+    "sampler",
+    [burnish.Matched(5), burnish.Prefiltered(), burnish.Regular(14)],
+    ids=lambda one: type(one).__name__,
+)
+def test_a_sequence_of_maps_shows_each_as_a_fresh_device_does(lookup, sampler):
+    shared = burnish.Device(lookup=lookup)
+    # The generator lets each map go before it makes the next one, whose room it then is.
+    in_turn = [
+        burnish.render(scene_under(one), size=(40, 60), sampler=sampler, device=shared).color.copy()
+        for one in maps(np.random.default_rng(5))
+    ]
+    alone = [
+        burnish.render(
+            scene_under(one), size=(40, 60), sampler=sampler, device=burnish.Device(lookup=lookup)
+        ).color.copy()
+        for one in maps(np.random.default_rng(5))
+    ]
+    assert len({picture.tobytes() for picture in alone}) == len(alone)
+    for k, (got, expected) in enumerate(zip(in_turn, alone, strict=True)):
+        np.testing.assert_array_equal(got, expected, err_msg=f"map {k}")
+
+
+def test_several_maps_after_one_another_are_those_of_a_fresh_device():
+    """Two maps of a set share their room, which the next set takes."""
+
+    def render(seed, device):
+        scene = scene_under(environments.spots(seed, 32))
+        scene.show_background = True
+        scene.objects[0].reflects = environments.spots(seed + 100, 32)
+        return burnish.render(scene, size=(40, 60), sampler=burnish.Matched(5), device=device).color.copy()
+
+    shared = burnish.Device(lookup="software")
+    for seed in range(3):
+        np.testing.assert_array_equal(
+            render(seed, shared), render(seed, burnish.Device(lookup="software")), err_msg=f"seed {seed}"
+        )
