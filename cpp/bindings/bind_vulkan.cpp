@@ -51,7 +51,8 @@ py::dict features_of(const vulkan::Device& device) {
 render::Compilation compilation(const std::string& name) {
     if (name == "wait") return render::Compilation::wait;
     if (name == "background") return render::Compilation::background;
-    throw std::invalid_argument(message("compile: expected wait or background, got '", name, "'"));
+    if (name == "shared") return render::Compilation::shared;
+    throw std::invalid_argument(message("compile: expected wait, background or shared, got '", name, "'"));
 }
 
 std::shared_ptr<render::Renderer> open_device(const std::string& name, std::optional<bool> validation,
@@ -74,7 +75,15 @@ std::shared_ptr<render::Renderer> open_device(const std::string& name, std::opti
 }
 
 const char* compilation_name(render::Compilation compilation) {
-    return compilation == render::Compilation::wait ? "wait" : "background";
+    switch (compilation) {
+    case render::Compilation::wait:
+        return "wait";
+    case render::Compilation::background:
+        return "background";
+    case render::Compilation::shared:
+        return "shared";
+    }
+    return "";
 }
 
 } // namespace
@@ -121,8 +130,9 @@ compile : str
     What a picture does while a pipeline with its samples as constants (report: table "constant") is compiled, as each
     new roughness or count of Regular and Importance needs one. "wait": it waits, so that its bits never depend on when
     it was asked for. "background": it reads the samples from a buffer, by a pipeline that all roughnesses share, and a
-    thread compiles the other for later pictures; pixels agree to 3e-5. Shaded points do the same. A
-    compilation that fails raises its error from the next call that draws or shades.
+    thread compiles the other for later pictures; pixels agree to 3e-5. A compilation that fails raises its error from
+    the next call that draws or shades. "shared": it always reads them from a buffer, 1.0 to 1.1 times as long on a CPU:
+    for sliders that are dragged and for drivers that compile slowly. Shaded points do the same.
 
 Raises
 ------
@@ -145,7 +155,7 @@ VulkanError
             "How maps are read: \"sampler\" or \"software\".")
         .def_property_readonly(
             "compile", [](const render::Renderer& self) { return compilation_name(self.compilation()); },
-            "What a picture does while its pipeline is compiled: \"wait\" or \"background\".")
+            "What a picture does while its pipeline is compiled: \"wait\", \"background\" or \"shared\".")
         .def("finish_compiling", &render::Renderer::finish_compiling,
              py::call_guard<py::gil_scoped_release>(),
              "Wait until no pipeline is left to be compiled in the background, where six wait at most, the "

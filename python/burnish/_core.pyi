@@ -47,7 +47,7 @@ class Device:
         validation: bool | None = None,
         lookup: str = "auto",
         memory_limit_bytes: int | None = None,
-        compile: Literal["wait", "background"] = "wait",
+        compile: Literal["wait", "background", "shared"] = "wait",
     ) -> None: ...
     @property
     def compile(self) -> str: ...

@@ -91,8 +91,10 @@ std::string why_at_every_point(const ShadeTraits& traits, const std::vector<cons
 std::string why_from_buffer(const ShadeTraits& traits, const PlanSettings& settings, size_t constant_count) {
     if (traits.lobe_count > 1) return "several lobes";
     if (!fits_into_constants(settings.sampler)) return "too many samples for constants";
-    if (settings.sample_source == SampleSource::buffer)
+    if (settings.sample_source == SampleSource::meanwhile)
         return "the pipeline that has them as constants is being compiled";
+    if (settings.sample_source == SampleSource::buffer)
+        return "pipelines that roughnesses share are asked for";
     if (settings.sample_source == SampleSource::loop) return "read in a loop for a benchmark";
     if (constant_count > MAX_CONSTANT_CLASSES)
         return message(constant_count, " roughnesses in the picture, more than ", MAX_CONSTANT_CLASSES,

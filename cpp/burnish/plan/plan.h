@@ -17,9 +17,13 @@
 
 namespace burnish {
 
-/// Where samples that a roughness fixes are read from: constants of the pipeline where they fit; a buffer,
-/// which all roughnesses share, while such a pipeline is compiled; a buffer in a loop, for benchmarks.
-enum class SampleSource { constants, buffer, loop };
+/// Where samples that a roughness fixes are read from.
+enum class SampleSource {
+    constants, ///< of the pipeline, where they fit
+    buffer,    ///< by pipelines that all roughnesses share
+    meanwhile, ///< the same, while the pipeline with constants is compiled
+    loop       ///< a buffer, in a loop, for benchmarks
+};
 
 struct PlanSettings {
     Sampler sampler = Regular{};

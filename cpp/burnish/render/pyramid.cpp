@@ -1,11 +1,11 @@
 #include "burnish/render/pyramid.h"
 
+#include "burnish/cores.h"
 #include "burnish/error.h"
 #include "shared/pyramid.h"
 
 #include <algorithm>
 #include <bit>
-#include <thread>
 #include <vector>
 
 #include "spirv/pyramid_border_comp.h"
@@ -17,7 +17,7 @@ namespace {
 
 constexpr uint64_t SCRATCH_PAIRS = (uint64_t{64} << 20) / 16; // cubes are done together up to this size
 constexpr uint32_t PAIR_BYTES = 16;
-constexpr uint32_t LEAST_THREADED_SIZE = 128; // below, starting threads costs more than it saves
+constexpr uint32_t LEAST_THREADED_SIZE = 128;
 constexpr uint32_t TEXEL_BYTES = 8;
 constexpr VkFormat PAIR_FORMAT = VK_FORMAT_R32G32B32A32_UINT;
 // Invocations beyond a level's edge load texels behind their face, though they store nothing: room behind the
@@ -177,23 +177,12 @@ bool Pyramid::stage(vulkan::Image& cubes, std::span<const std::shared_ptr<const 
 
     const VkBufferImageCopy finest = level_copy(0, size, 0, 0, cube_count);
     const auto half = room.pairs.buffer().mapped<uint16_t>();
-    const auto stage_rows = [&](uint32_t first, uint32_t step) {
-        for (uint32_t k = first; k < 6 * cube_count * size; k += step) {
-            const uint64_t pair =
-                uint64_t{k / size} * face_pairs(size) + uint64_t{k % size} * row_pairs(size);
-            environments[k / (6 * size)]->half_rgba(
-                k % (6 * size),
-                half.subspan((finest.bufferOffset + pair * PAIR_BYTES) / sizeof(uint16_t), 4 * size));
-        }
-    };
-    const uint32_t threads =
-        size < LEAST_THREADED_SIZE ? 1 : std::max(1u, std::thread::hardware_concurrency());
-    {
-        std::vector<std::jthread> others;
-        for (uint32_t k = 1; k < threads; ++k)
-            others.emplace_back(stage_rows, k, threads);
-        stage_rows(0, threads);
-    }
+    for_each_on_cores(size_t{6} * cube_count * size, size >= LEAST_THREADED_SIZE, [&](size_t row) {
+        const uint64_t pair = row / size * face_pairs(size) + row % size * row_pairs(size);
+        environments[row / (6 * size)]->half_rgba(
+            uint32_t(row % (6 * size)),
+            half.subspan((finest.bufferOffset + pair * PAIR_BYTES) / sizeof(uint16_t), 4 * size));
+    });
     vulkan::Commands commands(device_);
     commands.transition(cubes, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL);
     vkCmdCopyBufferToImage(commands.handle(), room.pairs.buffer().handle(), cubes.handle(), cubes.layout(), 1,

@@ -39,9 +39,13 @@ struct ShadePoints {
     std::span<const glm::vec3> views; ///< toward the eye
 };
 
-/// What a picture does that needs a pipeline with its samples as constants: wait until it is compiled; or
-/// read the samples from a buffer, by a pipeline that all roughnesses share, while a thread compiles it.
-enum class Compilation { wait, background };
+/// What a picture does that would be drawn by a pipeline with its samples as constants.
+enum class Compilation {
+    wait,       ///< until it is compiled
+    background, ///< reads the samples from a buffer, by a pipeline that all roughnesses share, while a thread
+                ///< compiles it
+    shared      ///< reads them from a buffer always
+};
 
 struct RendererSettings {
     std::optional<MapLookup> lookup; ///< none for what is best on the device

@@ -12,9 +12,12 @@ Plan Renderer::make_plan(const Scene& scene, const PlanSettings& settings) {
 
 Renderer::ShadePlan Renderer::plan_shading(const Scene& scene, const PlanSettings& settings,
                                            ShadeTarget target) {
-    Plan plan = make_plan(scene, settings);
+    PlanSettings wanted = settings;
+    if (compilation_ == Compilation::shared && settings.sample_source == SampleSource::constants)
+        wanted.sample_source = SampleSource::buffer;
+    Plan plan = make_plan(scene, wanted);
     ShadeTables tables = make_shade_tables(device_, scene, plan, tables_);
-    if (compilation_ == Compilation::wait) return {std::move(plan), std::move(tables)};
+    if (compilation_ != Compilation::background) return {std::move(plan), std::move(tables)};
 
     std::vector<ComputeKey> keys;
     for (uint32_t k = 0; k < plan.classes.size(); ++k)
@@ -22,9 +25,8 @@ Renderer::ShadePlan Renderer::plan_shading(const Scene& scene, const PlanSetting
             keys.push_back(shade_key(plan, tables, k, target));
     if (pipelines_.request(keys)) return {std::move(plan), std::move(tables)};
 
-    PlanSettings meanwhile = settings;
-    meanwhile.sample_source = SampleSource::buffer;
-    plan = make_plan(scene, meanwhile);
+    wanted.sample_source = SampleSource::meanwhile;
+    plan = make_plan(scene, wanted);
     tables = make_shade_tables(device_, scene, plan, tables_);
     return {std::move(plan), std::move(tables)};
 }

@@ -165,7 +165,8 @@ std::vector<uint32_t> unrolled_counts(const Scene& scene, const Plan& plan, Tabl
     }
     // What stands in for constants is for all roughnesses, and brushed lobes have a few samples more or less
     // with each. Several lobes never are constants: they keep the pipeline that they have anyway.
-    if (plan.settings.sample_source == SampleSource::buffer)
+    if (plan.settings.sample_source == SampleSource::buffer ||
+        plan.settings.sample_source == SampleSource::meanwhile)
         for (size_t k = 0; k < counts.size(); ++k)
             if (plan.classes[k].traits.lobe_count == 1) counts[k] = whole_phases(counts[k]);
     return counts;

@@ -1,5 +1,6 @@
 #include "burnish/render/texel_pairs.h"
 
+#include "burnish/cores.h"
 #include "burnish/plan/map_lookup.h"
 #include "burnish/sampling/cube_texels.h"
 #include "burnish/scene/half.h"
@@ -8,7 +9,6 @@
 
 #include <algorithm>
 #include <array>
-#include <thread>
 #include <vector>
 
 #include <glm/gtc/packing.hpp>
@@ -18,7 +18,7 @@ namespace burnish {
 namespace {
 
 constexpr uint32_t TEXEL_BYTES = 8;
-constexpr uint32_t LEAST_THREADED_SIZE = 128; // below, starting threads costs more than it saves
+constexpr uint32_t LEAST_THREADED_SIZE = 128;
 
 /// The texels of one level of a cube, found by their places in the orientation of the pairs.
 class CubeLevel {
@@ -90,23 +90,15 @@ glm::uvec4 pair_of(uint64_t left, uint64_t right) {
 void pack_level(const LevelTexels& texels, glm::uvec4* pairs) {
     const uint32_t size = texels.size;
     const CubeLevel level(texels);
-    const auto pack_faces = [&](uint32_t first, uint32_t step) {
+    for_each_on_cores(6, size >= LEAST_THREADED_SIZE, [&](size_t face) {
         std::vector<uint64_t> row(size + 2);
-        for (uint32_t face = first; face < 6; face += step) {
-            glm::uvec4* pair = pairs + size_t{face} * (size + 1) * (size + 2);
-            for (uint32_t y = 0; y < size + 2; ++y) {
-                level.read_row(face, int(y) - 1, row);
-                for (uint32_t x = 0; x <= size; ++x)
-                    *pair++ = pair_of(row[x], row[x + 1]);
-            }
+        glm::uvec4* pair = pairs + face * (size + 1) * (size + 2);
+        for (uint32_t y = 0; y < size + 2; ++y) {
+            level.read_row(uint32_t(face), int(y) - 1, row);
+            for (uint32_t x = 0; x <= size; ++x)
+                *pair++ = pair_of(row[x], row[x + 1]);
         }
-    };
-    const uint32_t threads =
-        size < LEAST_THREADED_SIZE ? 1 : std::clamp(std::thread::hardware_concurrency(), 1u, 6u);
-    std::vector<std::jthread> others;
-    for (uint32_t k = 1; k < threads; ++k)
-        others.emplace_back(pack_faces, k, threads);
-    pack_faces(0, threads);
+    });
 }
 
 } // namespace

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <thread>
 
+#include "burnish/cores.h"
 #include "burnish/sampling/matched_table.h"
 #include "burnish/sampling/prefilter_table.h"
 #include "shared/constants.h"
@@ -184,17 +184,10 @@ std::vector<glm::vec4> build_matched_view_table(const MatchedLobe& lobe) {
             if (lobe.has_schlick) out[lobe.samples + k / 4][int(k % 4)] = schlick;
         }
     };
-    const uint32_t thread_count = azimuths == 1 ? 1 : std::max(1u, std::thread::hardware_concurrency());
-    const auto place_some = [&](uint32_t first) {
-        for (uint32_t j = first; j < views * azimuths; j += thread_count)
-            place(j);
-    };
-    {
-        std::vector<std::jthread> others;
-        for (uint32_t k = 1; k < thread_count; ++k)
-            others.emplace_back(place_some, k);
-        place_some(0);
-    }
+    for_each_on_cores(views, azimuths > 1, [&](size_t view) {
+        for (uint32_t azimuth = 0; azimuth < azimuths; ++azimuth)
+            place(uint32_t(view) * azimuths + azimuth);
+    });
     return table;
 }
 

@@ -1,18 +1,18 @@
 #include "burnish/sampling/spherical_harmonics.h"
 
+#include "burnish/cores.h"
 #include "burnish/sampling/cube_texels.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <thread>
 #include <vector>
 
 namespace burnish {
 
 namespace {
 
-constexpr uint32_t LEAST_THREADED_FACE_SIZE = 256; // below, starting threads costs more than it saves
+constexpr uint32_t LEAST_THREADED_FACE_SIZE = 256;
 using Coefficients = std::array<glm::dvec3, 9>;
 
 /// Integral over the texels of a row of radiance times the monomials 1, y, z, x, xy, yz, z^2, xz, x^2 - y^2
@@ -41,22 +41,12 @@ std::array<glm::dvec3, 9> irradiance_over_pi_coefficients(const CubeTexels& cube
     const std::vector<double> solid_angles = texel_solid_angles(face_size);
     // One sum a row, added up in order: the result does not depend on the number of threads.
     std::vector<Coefficients> rows(size_t{6} * face_size);
-    const auto integrate = [&](size_t first, size_t step) {
-        for (size_t k = first; k < rows.size(); k += step) {
-            const auto row = static_cast<uint32_t>(k % face_size);
-            rows[k] = integrate_row(cube.radiance.data() + 3 * k * face_size,
-                                    solid_angles.data() + size_t{row} * face_size,
-                                    face_axes(static_cast<uint32_t>(k / face_size)), face_size, row);
-        }
-    };
-    const size_t thread_count =
-        face_size < LEAST_THREADED_FACE_SIZE ? 1 : std::max(1u, std::thread::hardware_concurrency());
-    {
-        std::vector<std::jthread> others;
-        for (size_t k = 1; k < thread_count; ++k)
-            others.emplace_back(integrate, k, thread_count);
-        integrate(0, thread_count);
-    }
+    for_each_on_cores(rows.size(), face_size >= LEAST_THREADED_FACE_SIZE, [&](size_t k) {
+        const auto row = static_cast<uint32_t>(k % face_size);
+        rows[k] = integrate_row(cube.radiance.data() + 3 * k * face_size,
+                                solid_angles.data() + size_t{row} * face_size,
+                                face_axes(static_cast<uint32_t>(k / face_size)), face_size, row);
+    });
     Coefficients sum{};
     for (const Coefficients& row : rows) {
         for (size_t k = 0; k < 9; ++k)

@@ -12,13 +12,12 @@
 // grid. Nothing is sampled; neighbouring cube texels share their arcs, so what one loses the other gets. Arcs
 // along a meridian have dlon = 0. The face of -y measures D from the south pole, so that on either pole D = 0
 // where lon is undefined.
+#include "burnish/cores.h"
 #include "burnish/scene/environment_texels.h"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <numbers>
-#include <thread>
 
 namespace burnish {
 
@@ -250,21 +249,11 @@ std::vector<float> cube_from_lat_long(uint32_t height, uint32_t width, const std
     // Sixteen rows are a good unit of work: those of the two pole faces take twice as long as others.
     const uint32_t rows = std::min(face_size, 16u);
     const uint32_t unit_count = 6 * face_size / rows;
-    std::atomic<uint32_t> next_unit{0};
-    const auto work = [&] {
-        for (uint32_t unit = next_unit++; unit < unit_count; unit = next_unit++) {
-            const uint32_t row = unit * rows;
-            fill_rows(energy, row / face_size, row % face_size, rows, face_size,
-                      faces.data() + size_t{3} * face_size * row);
-        }
-    };
-    const uint32_t helper_count = std::min(std::max(std::thread::hardware_concurrency(), 1u), unit_count) - 1;
-    std::vector<std::jthread> helpers;
-    for (uint32_t i = 0; i < helper_count; ++i) {
-        helpers.emplace_back(work);
-    }
-    work();
-    helpers.clear(); // joins
+    for_each_on_cores(unit_count, true, [&](size_t unit) {
+        const auto row = static_cast<uint32_t>(unit) * rows;
+        fill_rows(energy, row / face_size, row % face_size, rows, face_size,
+                  faces.data() + size_t{3} * face_size * row);
+    });
     return faces;
 }
 

@@ -94,8 +94,8 @@ class Subject(Protocol):
 def _device_that_waits(device: _core.Device | None) -> _core.Device:
     """Refuse a device whose pictures and times depend on what is compiled by then."""
     chosen = device or default_device()
-    if chosen.compile != "wait":
-        raise ValueError(f'device: expected one opened with compile="wait", got compile="{chosen.compile}"')
+    if chosen.compile == "background":
+        raise ValueError('device: expected one opened with compile="wait" or "shared", got "background"')
     return chosen
 
 

@@ -61,7 +61,7 @@ def test_a_device_waits_unless_told_otherwise(device, background):
     frame = draw(device, material(0.1234))
     assert tables(frame) == ["constant"]
     device.finish_compiling()
-    with pytest.raises(ValueError, match="compile: expected wait or background, got 'later'"):
+    with pytest.raises(ValueError, match="compile: expected wait, background or shared, got 'later'"):
         burnish.Device(name=device.name, compile="later")
 
 
@@ -123,6 +123,18 @@ def test_only_what_would_be_constants_is_said_to_be_compiled(background):
     assert tables(draw(background, material(0.2), material(0.2, 0.4))) == ["constant", "buffer"]
     for sampler in (burnish.Regular(samples=200), burnish.Matched(), burnish.Reference(0.2)):
         assert COMPILING not in str(reasons(draw(background, material(0.2), sampler=sampler)))
+
+
+def test_shared_pipelines_are_never_compiled_for_one_roughness(device, background):
+    shared = burnish.Device(name=device.name, compile="shared")
+    assert shared.compile == "shared"
+    for roughness in (0.15, 0.25):
+        frame = draw(shared, material(roughness))
+        assert tables(frame) == ["buffer"] and "roughnesses share" in reasons(frame)[0]
+        assert has_waited(frame) == (roughness == 0.15)
+        np.testing.assert_array_equal(frame.color, draw(background, material(roughness)).color)
+        shared.finish_compiling()
+        assert tables(draw(shared, material(roughness))) == ["buffer"]
 
 
 def test_points_do_the_same(device, background, rng):

@@ -112,7 +112,7 @@ def test_what_cannot_be_drawn_is_refused(device):
 
 def test_a_device_that_compiles_in_the_background_is_refused(scene, device):
     background = burnish.Device(name=device.name, compile="background")
-    refusal = 'device: expected one opened with compile="wait", got compile="background"'
+    refusal = 'device: expected one opened with compile="wait" or "shared", got "background"'
     with pytest.raises(ValueError, match=refusal):
         measure(scene, background)
     points = burnish.study.Points(scene.environment, scene.materials[0], *[np.eye(3, dtype=np.float32)] * 3)
