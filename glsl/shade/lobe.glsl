@@ -118,8 +118,9 @@ void add_lookup(inout LobeSums sums, Lookup lookup) {
     sums.density += lookup.density;
 }
 
-// Lookups go in phases of four: first all are aimed, then all are loaded, so that a CPU can overlap the loads.
-const uint PHASE = 4u;
+// Lookups go in phases of four: first all are aimed, then all are loaded, so that a CPU can overlap the loads. (In phases of one,
+// from a buffer, for drivers that compile slowly.)
+layout(constant_id = SPEC_PHASE) const uint PHASE = 4u;
 
 // Unrolled by hand: SAMPLE_COUNT is a constant, so what lies beyond it is not compiled.
 #define PLACE(k, lookup) if (SAMPLE_COUNT > uint(k)) lookup = place_lookup(v, SAMPLE_ENTRY(k));

@@ -95,6 +95,7 @@ SHARED_CONST uint SPEC_LAST_LEVEL = 23u; // log2 of the size of the map's faces
 SHARED_CONST uint SPEC_SAMPLE_TABLE_IS_STORED = 24u; // in a storage buffer: a texel buffer holds fewer
 SHARED_CONST uint SPEC_IS_DISPLAY = 25u; // of the accumulation too
 SHARED_CONST uint SPEC_COUNTS_NON_FINITE = 26u; // what is not finite is counted, too
+SHARED_CONST uint SPEC_PHASE = 27u; // lookups at a turn, of tables in a buffer
 SHARED_CONST uint SPEC_SAMPLES = 100u; // four floats a sample follow
 
 SHARED_CONST uint LOOKUP_SAMPLER = 0u; // the device's

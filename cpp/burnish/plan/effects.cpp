@@ -95,6 +95,8 @@ std::string why_from_buffer(const ShadeTraits& traits, const PlanSettings& setti
         return "the pipeline that has them as constants is being compiled";
     if (settings.sample_source == SampleSource::buffer)
         return "pipelines that roughnesses share are asked for";
+    if (settings.sample_source == SampleSource::one_by_one)
+        return "one after the other, which compiles soonest";
     if (settings.sample_source == SampleSource::loop) return "read in a loop for a benchmark";
     if (constant_count > MAX_CONSTANT_CLASSES)
         return message(constant_count, " roughnesses in the picture, more than ", MAX_CONSTANT_CLASSES,
@@ -137,9 +139,8 @@ std::string describe(const ShadeClass& one, const Scene& scene, const Plan& plan
         if (std::find(some.begin(), some.end(), material) == some.end()) some.push_back(material);
     }
     std::string text = listed(visible_materials(scene), some);
-    const bool is_loop_chosen =
-        unrolls_samples(plan.settings, one.traits) || plan.settings.sample_source == SampleSource::loop;
-    const char* const loop = is_loop_chosen ? "" : "; in a loop, too many samples to be written out";
+    const bool is_too_long = writes_out_samples(plan.settings) && !unrolls_samples(plan.settings, one.traits);
+    const char* const loop = is_too_long ? "; in a loop, too many samples to be written out" : "";
     switch (one.traits.table) {
     case TableForm::none:
         break;

@@ -228,8 +228,12 @@ bool fits_into_constants(const Sampler& sampler) {
     return false;
 }
 
+bool writes_out_samples(const PlanSettings& settings) {
+    return settings.sample_source != SampleSource::one_by_one && settings.sample_source != SampleSource::loop;
+}
+
 bool unrolls_samples(const PlanSettings& settings, const ShadeTraits& traits) {
-    if (settings.sample_source == SampleSource::loop) return false;
+    if (!writes_out_samples(settings)) return false;
     if (traits.table != TableForm::buffer && traits.table != TableForm::scaled) return false;
     const auto* regular = std::get_if<Regular>(&settings.sampler);
     const uint32_t samples = regular ? regular->samples : std::get<Importance>(settings.sampler).samples;

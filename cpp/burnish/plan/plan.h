@@ -19,10 +19,11 @@ namespace burnish {
 
 /// Where samples that a roughness fixes are read from.
 enum class SampleSource {
-    constants, ///< of the pipeline, where they fit
-    buffer,    ///< by pipelines that all roughnesses share
-    meanwhile, ///< the same, while the pipeline with constants is compiled
-    loop       ///< a buffer, in a loop, for benchmarks
+    constants,  ///< of the pipeline, where they fit
+    buffer,     ///< by pipelines that all roughnesses share
+    meanwhile,  ///< the same, while the pipeline with constants is compiled
+    one_by_one, ///< a buffer, in a loop of single lookups, for drivers that compile slowly
+    loop        ///< a buffer, in a loop, for benchmarks
 };
 
 struct PlanSettings {
@@ -141,6 +142,9 @@ constexpr size_t MAX_CONSTANT_CLASSES = 6;
 
 /// Whether the samples of one lobe can be constants of a pipeline.
 bool fits_into_constants(const Sampler& sampler);
+
+/// Whether the lookups of tables in a buffer may be written out: a driver has to compile them.
+bool writes_out_samples(const PlanSettings& settings);
 
 /// Whether tables that are read from a buffer are read without a loop: where all lookups of a point are few.
 bool unrolls_samples(const PlanSettings& settings, const ShadeTraits& traits);

@@ -5,9 +5,10 @@
 namespace burnish::render {
 
 Plan Renderer::make_plan(const Scene& scene, const PlanSettings& settings) {
-    PlanSettings with_lookup = settings;
-    with_lookup.lookup = lookup_;
-    return burnish::make_plan(scene, with_lookup, suns_);
+    PlanSettings for_device = settings;
+    for_device.lookup = lookup_;
+    if (device_->info().compiles_slowly) for_device.sample_source = SampleSource::one_by_one;
+    return burnish::make_plan(scene, for_device, suns_);
 }
 
 Renderer::ShadePlan Renderer::plan_shading(const Scene& scene, const PlanSettings& settings,

@@ -115,8 +115,10 @@ void add_pattern_constants(vulkan::SpecializationConstants& constants, const Sha
     if (const auto* matched = std::get_if<Matched>(&sampler))
         constants.set(shared::SPEC_SAMPLE_COUNT, matched->samples)
             .set(shared::SPEC_WIDE_COMPONENTS, traits.has_wide_components);
-    if (traits.table == TableForm::buffer || traits.table == TableForm::scaled)
+    if (traits.table == TableForm::buffer || traits.table == TableForm::scaled) {
         constants.set(shared::SPEC_SAMPLE_COUNT, buffer_count);
+        if (settings.sample_source == SampleSource::one_by_one) constants.set(shared::SPEC_PHASE, 1u);
+    }
     if (traits.table != TableForm::constant) return;
     constants.set(shared::SPEC_SAMPLE_COUNT, uint32_t(table.entries.size()));
     for (uint32_t k = 0; k < table.entries.size(); ++k)

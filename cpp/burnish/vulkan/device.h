@@ -24,10 +24,11 @@ class ValidationLog;
 struct MemoryStatistics;
 
 struct DeviceInfo {
-    std::string name;                  // as the driver reports it, e.g. "llvmpipe (LLVM 15.0.6, 256 bits)"
-    std::string driver;                // name and version of the driver, e.g. "llvmpipe Mesa 22.3.6"
-    bool is_software = false;          // the device is a CPU
-    uint32_t api_version = 0;          // VK_MAKE_API_VERSION coding
+    std::string name;             // as the driver reports it, e.g. "llvmpipe (LLVM 15.0.6, 256 bits)"
+    std::string driver;           // name and version of the driver, e.g. "llvmpipe Mesa 22.3.6"
+    bool is_software = false;     // the device is a CPU
+    bool compiles_slowly = false; // kernels whose loops are written out: minutes, and gigabytes of memory
+    uint32_t api_version = 0;     // VK_MAKE_API_VERSION coding
     std::vector<std::string> refusals; // why it cannot be used; empty = usable
 };
 

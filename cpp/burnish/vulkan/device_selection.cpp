@@ -82,6 +82,7 @@ Candidate inspect(VkPhysicalDevice device) {
     info.name = properties.properties.deviceName;
     info.driver = message(driver.driverName, " ", driver.driverInfo);
     info.is_software = candidate.type == VK_PHYSICAL_DEVICE_TYPE_CPU;
+    info.compiles_slowly = driver.driverID == VK_DRIVER_ID_GOOGLE_SWIFTSHADER;
     info.api_version = properties.properties.apiVersion;
 
     if (info.api_version < VK_API_VERSION_1_3) {
