@@ -27,7 +27,7 @@ print(json.dumps({
     "device": device.name,
     "lookup": device.lookup,
     "count": len(found),
-    "failures": [f"{m.case}, {m.sampler}: {m.measured:.3g} of {m.bound:.3g} {m.note}" for m in found if not m.passed],
+    "failures": [f"{m.case}, {m.sampler}: {m.measured} of {m.bound} {m.note}" for m in found if not m.passed],
     "reason": frame.report.classes[0]["reason"],
 }))
 """
