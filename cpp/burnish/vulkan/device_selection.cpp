@@ -80,7 +80,7 @@ Candidate inspect(VkPhysicalDevice device) {
     candidate.type = properties.properties.deviceType;
     DeviceInfo& info = candidate.info;
     info.name = properties.properties.deviceName;
-    info.driver = message(driver.driverName, " ", driver.driverInfo);
+    info.driver = message(driver.driverName, *driver.driverInfo ? " " : "", driver.driverInfo);
     info.is_software = candidate.type == VK_PHYSICAL_DEVICE_TYPE_CPU;
     info.compiles_slowly = driver.driverID == VK_DRIVER_ID_GOOGLE_SWIFTSHADER;
     info.api_version = properties.properties.apiVersion;
