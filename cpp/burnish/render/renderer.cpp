@@ -95,7 +95,11 @@ Frame Renderer::draw(const Scene& scene, const Camera& camera, const RenderSetti
     const Stopwatch wall;
     const bool is_reference = std::holds_alternative<Reference>(settings.plan.sampler);
     std::optional<Frame> frame = draw_once(scene, camera, settings, is_reference);
-    if (!frame) frame = draw_once(scene, camera, settings, true);
+    if (!frame) {
+        frame = draw_once(scene, camera, settings, true);
+        frame->report.problems.push_back("radiance that is not finite, or more than a float32 in all: the "
+                                         "picture was drawn twice, passes are of the second time");
+    }
     frame->report.wall_ms = wall.milliseconds();
     return std::move(*frame);
 }

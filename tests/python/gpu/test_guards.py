@@ -82,6 +82,7 @@ def test_finite_values_whose_sum_overflows_are_not_stopped(bright, device):
     middle = frame.color[10, 12, :3].astype(np.float64)
     assert 1.5e38 < middle.min() and middle.sum() > np.finfo(np.float32).max
     assert frame.report.stopped == []
+    assert any("drawn twice" in warning for warning in frame.report.warnings)
 
 
 def test_finite_pictures_stop_nothing_in_strict_mode(bright, device):
