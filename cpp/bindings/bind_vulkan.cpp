@@ -132,7 +132,7 @@ compile : str
     it was asked for. "background": it reads the samples from a buffer, by a pipeline that all roughnesses share, and a
     thread compiles the other for later pictures; pixels agree to 3e-5. A compilation that fails raises its error from
     the next call that draws or shades. "shared": it always reads them from a buffer, 1.0 to 1.1 times as long on a CPU:
-    for sliders that are dragged and for drivers that compile slowly. Shaded points do the same.
+    for sliders that are dragged. Shaded points do the same.
 
 Raises
 ------

@@ -6,6 +6,9 @@
 
 namespace burnish {
 
+/// Texels along an edge from which the host works on a level on all cores.
+constexpr uint32_t LEAST_THREADED_SIZE = 128;
+
 /// One level of some cubes: half RGBA in Vulkan's order and orientation, 8 bytes a texel, face after face.
 struct LevelTexels {
     const uint64_t* first = nullptr; ///< the upper left texel of the first face

@@ -95,7 +95,7 @@ void Prefilter::record(vulkan::Commands& commands, vulkan::Image& cubes, MapLook
 
 std::vector<LevelTexels> Prefilter::levels_on_host() const {
     std::vector<LevelTexels> result;
-    if (!last_ || !device_->info().is_software || !last_->texels.is_mapped()) return result;
+    if (!last_ || !last_->texels.is_host_memory()) return result;
     const uint64_t* texels = last_->texels.mapped<uint64_t>().data();
     for (const Level& level : last_->levels)
         result.push_back(

@@ -17,7 +17,6 @@ namespace {
 
 constexpr uint64_t SCRATCH_PAIRS = (uint64_t{64} << 20) / 16; // cubes are done together up to this size
 constexpr uint32_t PAIR_BYTES = 16;
-constexpr uint32_t LEAST_THREADED_SIZE = 128;
 constexpr uint32_t TEXEL_BYTES = 8;
 constexpr VkFormat PAIR_FORMAT = VK_FORMAT_R32G32B32A32_UINT;
 // Invocations beyond a level's edge load texels behind their face, though they store nothing: room behind the
@@ -233,7 +232,7 @@ void Pyramid::record(vulkan::Commands& commands, vulkan::Image& cubes, uint32_t 
 
 std::vector<LevelTexels> Pyramid::levels_on_host() const {
     std::vector<LevelTexels> result;
-    if (!last_ || !device_->info().is_software || !last_->pairs.buffer().is_mapped()) return result;
+    if (!last_ || !last_->pairs.buffer().is_host_memory()) return result;
     const uint64_t* texels = last_->pairs.buffer().mapped<uint64_t>().data();
     for (const Level& level : last_->levels) {
         const size_t pitch = 2 * size_t{row_pairs(level.size)}, border = shared::PYRAMID_BORDER;

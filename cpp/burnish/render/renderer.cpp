@@ -126,7 +126,7 @@ std::optional<Frame> Renderer::draw_once(const Scene& scene, const Camera& camer
     frame.targets = targets_->take(settings.width, settings.height, plan.has_varying, plan.settings.spp > 1,
                                    frame.has_display, uint32_t(plan.classes.size()) + 1);
     FrameTargets& targets = *frame.targets;
-    const bool is_shared = device_->info().is_software && targets.radiance.is_mapped();
+    const bool is_shared = targets.radiance.is_host_memory();
     frame.report = start_report(scene, plan, tables);
     frame.report.width = settings.width;
     frame.report.height = settings.height;

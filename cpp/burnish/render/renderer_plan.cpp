@@ -7,16 +7,16 @@ namespace burnish::render {
 Plan Renderer::make_plan(const Scene& scene, const PlanSettings& settings) {
     PlanSettings for_device = settings;
     for_device.lookup = lookup_;
-    if (device_->info().compiles_slowly) for_device.sample_source = SampleSource::one_by_one;
+    if (device_->info().compiles_slowly)
+        for_device.sample_source = SampleSource::one_by_one;
+    else if (compilation_ == Compilation::shared && settings.sample_source == SampleSource::constants)
+        for_device.sample_source = SampleSource::buffer;
     return burnish::make_plan(scene, for_device, suns_);
 }
 
 Renderer::ShadePlan Renderer::plan_shading(const Scene& scene, const PlanSettings& settings,
                                            ShadeTarget target) {
-    PlanSettings wanted = settings;
-    if (compilation_ == Compilation::shared && settings.sample_source == SampleSource::constants)
-        wanted.sample_source = SampleSource::buffer;
-    Plan plan = make_plan(scene, wanted);
+    Plan plan = make_plan(scene, settings);
     ShadeTables tables = make_shade_tables(device_, scene, plan, tables_);
     if (compilation_ != Compilation::background) return {std::move(plan), std::move(tables)};
 
@@ -26,8 +26,9 @@ Renderer::ShadePlan Renderer::plan_shading(const Scene& scene, const PlanSetting
             keys.push_back(shade_key(plan, tables, k, target));
     if (pipelines_.request(keys)) return {std::move(plan), std::move(tables)};
 
-    wanted.sample_source = SampleSource::meanwhile;
-    plan = make_plan(scene, wanted);
+    PlanSettings meanwhile = settings;
+    meanwhile.sample_source = SampleSource::meanwhile;
+    plan = make_plan(scene, meanwhile);
     tables = make_shade_tables(device_, scene, plan, tables_);
     return {std::move(plan), std::move(tables)};
 }

@@ -25,10 +25,7 @@ GroupRows fold_groups(uint64_t groups) {
 ShadePass::ShadePass(Pipelines& pipelines, const Plan& plan, const ShadeTables& tables,
                      const std::vector<std::shared_ptr<EnvironmentMaps>>& maps, const ShadeInputs& inputs,
                      const Placeholders& unused, const ReferenceBuffers* reference)
-    : tables_(tables), inputs_(inputs), unused_(unused), sampler_(pipelines.device(), {}),
-      output_(inputs.display ? inputs.display : inputs.radiance),
-      pixel_bytes_(inputs.display ? sizeof(uint32_t) : sizeof(glm::vec4)),
-      output_bytes_(inputs.point_count * pixel_bytes_) {
+    : tables_(tables), inputs_(inputs), unused_(unused), sampler_(pipelines.device(), {}) {
     const bool is_points = inputs.targets == nullptr;
     for (uint32_t k = 0; k < plan.classes.size(); ++k) {
         const ShadeTarget target{is_points, inputs.display != nullptr, inputs.counts_non_finite};
@@ -160,20 +157,20 @@ void ShadePass::record_background(vulkan::Commands& commands) const {
 }
 
 void ShadePass::record_start(vulkan::Commands& commands) const {
-    commands.fill_buffer(*output_, 0, output_bytes_, pixel_bytes_);
-    commands.fill_buffer(*inputs_.counters, 0);
+    commands.fill_buffer(output(), 0, output_bytes(), pixel_bytes());
+    if (inputs_.counts_non_finite) commands.fill_buffer(*inputs_.counters, 0);
     commands.barrier();
 }
 
 void ShadePass::record_clear(vulkan::Commands& commands) const {
-    commands.fill_buffer(*output_, 0, 0, output_bytes_);
+    commands.fill_buffer(output(), 0, 0, output_bytes());
     commands.barrier();
 }
 
 bool ShadePass::left_out_non_finite() const {
     glm::uvec4 behind_end(0);
-    vulkan::read_back(*output_, std::as_writable_bytes(std::span(&behind_end, 1)).first(pixel_bytes_),
-                      output_bytes_);
+    vulkan::read_back(output(), std::as_writable_bytes(std::span(&behind_end, 1)).first(pixel_bytes()),
+                      output_bytes());
     return behind_end != glm::uvec4(0);
 }
 

@@ -81,6 +81,10 @@ private:
                      const vulkan::SpecializationConstants& constants, uint32_t shade_class,
                      const EnvironmentMaps* maps, const ReferenceBuffers* reference);
     void dispatch(vulkan::Commands& commands, const Stage& stage, shared::ShadeRecord push) const;
+    const vulkan::Buffer& output() const { return inputs_.display ? *inputs_.display : *inputs_.radiance; }
+    VkDeviceSize pixel_bytes() const { return inputs_.display ? sizeof(uint32_t) : sizeof(glm::vec4); }
+    /// Without the pixel behind its end.
+    VkDeviceSize output_bytes() const { return inputs_.point_count * pixel_bytes(); }
 
     const ShadeTables& tables_;
     ShadeInputs inputs_;
@@ -89,8 +93,6 @@ private:
     std::vector<Stage> classes_;
     std::vector<Stage> background_;
     std::vector<Stage> tile_stages_;
-    const vulkan::Buffer* output_;
-    VkDeviceSize pixel_bytes_, output_bytes_; // the latter without the pixel behind its end
 };
 
 } // namespace burnish::render

@@ -2,7 +2,7 @@
 
 #include "burnish/cores.h"
 #include "burnish/plan/map_lookup.h"
-#include "burnish/sampling/cube_texels.h"
+#include "burnish/scene/environment.h"
 #include "burnish/scene/half.h"
 #include "burnish/vulkan/commands.h"
 #include "burnish/vulkan/transfer.h"
@@ -18,15 +18,11 @@ namespace burnish {
 namespace {
 
 constexpr uint32_t TEXEL_BYTES = 8;
-constexpr uint32_t LEAST_THREADED_SIZE = 128;
 
 /// The texels of one level of a cube, found by their places in the orientation of the pairs.
 class CubeLevel {
 public:
-    explicit CubeLevel(const LevelTexels& texels) : texels_(texels), size_(texels.size) {
-        for (uint32_t face = 0; face < 6; ++face)
-            axes_[face] = face_axes(face);
-    }
+    explicit CubeLevel(const LevelTexels& texels) : texels_(texels), size_(texels.size) {}
 
     /// Texels of a row of a bordered face, from the border's corner on; `row` has room for them.
     void read_row(uint32_t face, int y, std::span<uint64_t> row) const {
@@ -44,22 +40,21 @@ private:
     /// beyond the edge.
     std::ptrdiff_t index(uint32_t face, int x, int y) const {
         // Coordinates of texel centres are multiples of 1/size, a power of two: exact.
-        const double texel = 1.0 / size_;
-        const double u = (2 * x + 1) * texel - 1.0, v = (2 * y + 1) * texel - 1.0;
-        const bool is_beyond = std::max(std::abs(u), std::abs(v)) > 1.0;
-        const double a = std::clamp(u, -1.0, 1.0), b = std::clamp(v, -1.0, 1.0);
-        const double side = (face % 2 ? -1.0 : 1.0) * (is_beyond ? 1.0 - texel : 1.0);
-        const glm::dvec3 point = face < 2   ? glm::dvec3(side, b, a)
-                                 : face < 4 ? glm::dvec3(a, side, b)
-                                            : glm::dvec3(a, b, side);
-        uint32_t owner = face;
-        for (uint32_t other = 0; other < 6 && is_beyond; ++other)
-            if (glm::dot(axes_[other].axis, point) == 1.0) owner = other;
-        const auto place = [&](const glm::dvec3& axis) {
-            return std::ptrdiff_t((glm::dot(axis, point) + 1.0) * (0.5 * size_));
+        const float size = float(size_), texel = 1.0f / size;
+        const float u = float(2 * x + 1) * texel - 1.0f, v = float(2 * y + 1) * texel - 1.0f;
+        const bool is_beyond = std::max(std::abs(u), std::abs(v)) > 1.0f;
+        const float a = std::clamp(u, -1.0f, 1.0f), b = std::clamp(v, -1.0f, 1.0f);
+        const float side = (face % 2 ? -1.0f : 1.0f) * (is_beyond ? 1.0f - texel : 1.0f);
+        const glm::vec3 point = face < 2   ? glm::vec3(side, b, a)
+                                : face < 4 ? glm::vec3(a, side, b)
+                                           : glm::vec3(a, b, side);
+        float right = 0.0f, down = 0.0f;
+        const uint32_t owner = cube_face(point, right, down);
+        const auto place = [&](float coordinate) {
+            return std::ptrdiff_t((coordinate + 1.0f) * (0.5f * size));
         };
-        return std::ptrdiff_t(owner * texels_.face_pitch) +
-               place(axes_[owner].down) * std::ptrdiff_t(texels_.row_pitch) + place(axes_[owner].right);
+        return std::ptrdiff_t(owner * texels_.face_pitch) + place(down) * std::ptrdiff_t(texels_.row_pitch) +
+               place(right);
     }
 
     uint64_t texel(uint32_t face, int x, int y) const { return texels_.first[index(face, x, y)]; }
@@ -77,7 +72,6 @@ private:
 
     LevelTexels texels_;
     uint32_t size_;
-    std::array<FaceAxes, 6> axes_;
 };
 
 glm::uvec4 pair_of(uint64_t left, uint64_t right) {

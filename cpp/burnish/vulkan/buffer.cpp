@@ -28,6 +28,10 @@ Buffer::Buffer(const DevicePointer& device, VkDeviceSize size_bytes, VkBufferUsa
              "vkBindBufferMemory");
 }
 
+bool Buffer::is_host_memory() const {
+    return is_mapped() && device()->info().is_software;
+}
+
 std::byte* Buffer::mapped_bytes() const {
     if (!is_mapped())
         throw std::logic_error("buffer: expected memory that the host can see, got device memory");

@@ -18,6 +18,8 @@ public:
     VkDeviceSize size_bytes() const { return size_bytes_; }
     const DevicePointer& device() const { return buffer_.device(); }
     bool is_mapped() const { return allocation_.mapped() != nullptr; }
+    /// Whether the host reads it as fast as its own memory: it is mapped, and the device is a CPU.
+    bool is_host_memory() const;
 
     /// The whole elements that fit, as the host sees them. Throws std::logic_error if the host cannot see the
     /// memory.
