@@ -1,4 +1,5 @@
 #include "burnish/scene/environment.h"
+#include "error_message.h"
 
 #include <array>
 #include <cmath>
@@ -266,13 +267,8 @@ TEST(Environment, MinusZeroIsBlackAndNoFault) {
 }
 
 TEST(Environment, FaceSizeErrorNamesTheNearest) {
-    try {
-        Environment::from_faces(100, std::vector<float>(size_t{6} * 100 * 100 * 3));
-        FAIL();
-    } catch (const std::invalid_argument& error) {
-        EXPECT_STREQ(error.what(),
-                     "face_size: expected a power of two in 1..2048, got 100 (nearest: 64 or 128)");
-    }
+    EXPECT_EQ(message_of([] { Environment::from_faces(100, std::vector<float>(size_t{6} * 100 * 100 * 3)); }),
+              "face_size: expected a power of two in 1..2048, got 100 (nearest: 64 or 128)");
     EXPECT_THROW(require_face_size(0), std::invalid_argument);
     EXPECT_THROW(require_face_size(4096), std::invalid_argument);
     EXPECT_NO_THROW(require_face_size(1));

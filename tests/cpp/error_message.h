@@ -1,4 +1,4 @@
-// The text of an expected error.
+// The text of an expected error, and what is in it.
 #pragma once
 
 #include <stdexcept>
@@ -14,6 +14,10 @@ std::string message_of(const Action& action) {
         return error.what();
     }
     return "nothing thrown";
+}
+
+inline bool holds(const std::string& text, const std::string& part) {
+    return text.find(part) != std::string::npos;
 }
 
 } // namespace burnish

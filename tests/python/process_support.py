@@ -6,13 +6,13 @@ import sys
 import textwrap
 
 
-def start(code, *arguments):
+def start(code, *arguments, **environment):
     return subprocess.Popen(
         [sys.executable, "-c", textwrap.dedent(code), *arguments],
         stdout=subprocess.PIPE,
         stderr=subprocess.PIPE,
         text=True,
-        env=os.environ | {"PYTHONPATH": os.pathsep.join(sys.path), "BURNISH_VALIDATION": "0"},
+        env=os.environ | {"PYTHONPATH": os.pathsep.join(sys.path), "BURNISH_VALIDATION": "0"} | environment,
     )
 
 
