@@ -11,6 +11,10 @@ COARSE_REFERENCE = 1 / 3
 """Share of the least error from which the reference's own standard error spoils the ranking."""
 
 
+OWNED_BY_FEW = 0.5
+"""Share of the squared error from which the worst .1 % of the pixels decide the ranking."""
+
+
 def _of_cell(rows: list[Row]) -> list[str]:
     measured = [row for row in rows if row["relative_rmse"] is not None]
     if not measured:
@@ -20,6 +24,12 @@ def _of_cell(rows: list[Row]) -> list[str]:
     lines = [
         f"{cell_title(rows[0])}: {best['sampler']} has the least error, {least} relative RMSE in {time} ms."
     ]
+    owned = max(measured, key=lambda row: row.get("worst_share") or 0.0)
+    if (owned.get("worst_share") or 0.0) > OWNED_BY_FEW:
+        lines.append(
+            f"Careful: the worst .1 % of the pixels have {owned['worst_share']:.0%} of {owned['sampler']}'s squared "
+            "error; compare the errors of the rest as well."
+        )
     noise = max(row["reference_standard_error"] for row in rows)
     if noise > COARSE_REFERENCE * best["relative_rmse"]:
         lines.append(

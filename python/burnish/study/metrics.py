@@ -16,6 +16,9 @@ Mask = NDArray[np.bool_]
 DISPLAY_PERCENTILE = 98.0
 """Share of the reference's values, in percent, that a display shows unclipped (CGI 2014, section 6)."""
 
+WORST_PIXELS = 1e-3
+"""Share of the pixels, one at least, that are the worst ones of `error_tail`."""
+
 
 @dataclass(frozen=True)
 class Errors:
@@ -31,12 +34,18 @@ class Errors:
         Mean FLIP, 0..1. None for points, which have no neighbours, and without the package flip-evaluator.
     max_error : float
         Largest difference of any value, relative to the reference's root mean square.
+    worst_share : float
+        Share, 0..1, of the squared error that the worst .1 % of the pixels have; see `error_tail`.
+    trimmed_rmse : float
+        `relative_rmse` without those pixels.
     """
 
     relative_rmse: float
     display_rms: float
     flip: float | None
     max_error: float
+    worst_share: float
+    trimmed_rmse: float
 
     def as_dict(self) -> dict[str, float | None]:
         """Give the fields by name."""
@@ -110,6 +119,34 @@ def max_error(color: FloatArray, reference: FloatArray) -> float:
     return float(np.max(np.abs(np.asarray(color, np.float64) - truth))) / scale
 
 
+def error_tail(color: FloatArray, reference: FloatArray) -> tuple[float, float]:
+    """Tell how much of an error the worst .1 % of the pixels own, and what is left without them.
+
+    Parameters
+    ----------
+    color, reference : (..., 3) float32
+        Linear radiance, equal shapes.
+
+    Returns
+    -------
+    worst_share : float in 0..1
+        Of the sum of squared differences; .001 where the error is even, nearly 1 where a pixel owns it. 0
+        without any error, NaN when there are no pixels.
+    trimmed_rmse : float
+        Relative RMSE of linear radiance over all other pixels. NaN when none are left or they are black.
+    """
+    truth = np.asarray(reference, np.float64).reshape(-1, 3)
+    if len(truth) == 0:
+        return float("nan"), float("nan")
+    squares = np.sum((np.asarray(color, np.float64).reshape(-1, 3) - truth) ** 2, axis=1)
+    kept = np.argsort(squares, kind="stable")[: len(squares) - max(1, round(WORST_PIXELS * len(squares)))]
+    total, energy = float(squares.sum()), float(np.sum(truth[kept] ** 2))
+    rest = float(squares[kept].sum())
+    return (1.0 - rest / total if total > 0.0 else 0.0), (
+        float(np.sqrt(rest / energy)) if energy > 0.0 else float("nan")
+    )
+
+
 def has_flip() -> bool:
     """Whether the package flip-evaluator can be imported."""
     try:
@@ -178,7 +215,13 @@ def measure_errors(
     flip: float | None = None
     if with_flip and reference.ndim == 3 and mask.any():
         flip = float(np.mean(flip_map(color, reference, display_scale(truth))[mask], dtype=np.float64))
-    return Errors(relative_rmse(values, truth), display_rms(values, truth), flip, max_error(values, truth))
+    return Errors(
+        relative_rmse(values, truth),
+        display_rms(values, truth),
+        flip,
+        max_error(values, truth),
+        *error_tail(values, truth),
+    )
 
 
 def signed_difference(color: FloatArray, reference: FloatArray, covered: Mask | None = None) -> NDArray[Any]:

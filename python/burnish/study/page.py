@@ -27,6 +27,8 @@ COLUMNS = (
     ("sampler", "sampler", "as the command line takes it"),
     ("samples", "samples", "samples per lobe really taken"),
     ("relative_rmse", "rel. RMSE", ERROR_LABELS["relative_rmse"]),
+    ("worst_share", "worst .1 %", "share of the squared error that the worst .1 % of the pixels have"),
+    ("trimmed_rmse", "RMSE of the rest", ERROR_LABELS["trimmed_rmse"]),
     ("display_rms", "display RMS", "98th percentile of the reference at 1, clipped"),
     ("flip", "FLIP", "mean over the objects"),
     ("max_error", "max error", ERROR_LABELS["max_error"]),

@@ -18,6 +18,7 @@ ERROR_LABELS = {
     "display_rms": "RMS error of the displayed picture",
     "flip": "mean FLIP",
     "max_error": "largest error / RMS of the reference",
+    "trimmed_rmse": "relative RMSE without the worst .1 % of the pixels",
 }
 TIME_LABELS = {
     "frame_ms": "frame time (ms)",

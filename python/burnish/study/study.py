@@ -16,7 +16,7 @@ from burnish.study.store import CellPictures
 if TYPE_CHECKING:
     from burnish.study.plots import Kind
 
-ErrorName = Literal["relative_rmse", "display_rms", "flip", "max_error"]
+ErrorName = Literal["relative_rmse", "display_rms", "flip", "max_error", "trimmed_rmse"]
 TimeName = Literal["frame_ms", "shade_ms", "wall_ms"]
 
 FORMAT = 1
@@ -34,7 +34,8 @@ class Study:
         environment, filter and size. Keys: ``scene``, ``material``, ``environment``, ``filter``, ``height``,
         ``width``, ``spp``; ``sampler`` (text that makes it again), ``method`` (the same without the number of
         samples), ``requested_samples``, ``samples`` (really taken; the largest, where materials differ),
-        ``samples_used``; ``relative_rmse``, ``display_rms``, ``flip``, ``max_error`` (see `Errors`),
+        ``samples_used``; ``relative_rmse``, ``display_rms``, ``flip``, ``max_error``, ``worst_share``,
+        ``trimmed_rmse`` (see `Errors`),
         ``reference``, ``reference_standard_error``; ``frame_ms``, ``shade_ms``, ``wall_ms`` (see
         `frame_times`; medians) and their median absolute deviations ``frame_deviation_ms`` and so on,
         ``passes_ms`` (dict by pass), ``compile_ms``, ``runs``; ``device``, ``driver``, ``is_software``,
@@ -208,9 +209,10 @@ TABLE_COLUMNS = (
     "sampler",
     "samples",
     "relative_rmse",
+    "worst_share",
+    "trimmed_rmse",
     "display_rms",
     "flip",
-    "max_error",
     "shade_ms",
     "frame_ms",
     "frame_deviation_ms",

@@ -143,6 +143,9 @@ def test_findings_name_the_best_and_warn(study):
     text = "\n".join(list_findings(Study([row | changed for row in study.rows])))
     assert text.count("more than a third of the least error") == 2
     assert "flip-evaluator was not installed" in text and text.count("mind the gap") == 1
+    owned = list_findings(Study([study.rows[0] | {"worst_share": 0.9}, *study.rows[1:]]))
+    assert "the worst .1 % of the pixels have 90% of regular:5's squared error" in owned[1]
+    assert not any("squared error" in line for line in lines)
     black = Study([row | {"relative_rmse": None} for row in study.rows])
     assert "the reference is black" in list_findings(black)[0]
 

@@ -29,6 +29,27 @@ def test_relative_rmse_and_max_error_follow_their_definitions():
     assert errors.max_error == pytest.approx(1 / math.sqrt(12.5))
 
 
+def test_the_tail_of_an_error_is_that_of_the_worst_pixel_in_a_thousand():
+    reference = np.ones((2000, 3), np.float32)
+    color = reference * np.float32(1.125)
+    # even errors: the worst two of 2000 pixels have a thousandth, and the rest errs as much as all
+    assert metrics.error_tail(color, reference) == pytest.approx((1e-3, 0.125))
+    color[[7, 1999]] = 11.0
+    # two pixels of 10 against 1998 of 1/8
+    assert metrics.error_tail(color, reference) == pytest.approx((200 / (200 + 1998 / 64), 0.125))
+    errors = measure_errors(color, reference)
+    assert (errors.worst_share, errors.trimmed_rmse) == metrics.error_tail(color, reference)
+
+
+def test_the_tail_of_few_or_equal_pixels_is_a_number_or_said_not_to_be():
+    assert metrics.error_tail(grey(1, 2), grey(1, 2)) == (0.0, 0.0)
+    # one pixel of two is the worst; without it nothing is wrong
+    assert metrics.error_tail(grey(4, 4), grey(3, 4)) == (1.0, 0.0)
+    share, rest = metrics.error_tail(grey(4), grey(3))
+    assert share == 1.0 and math.isnan(rest)
+    assert all(math.isnan(value) for value in metrics.error_tail(grey(), grey()))
+
+
 def test_display_scale_puts_the_98th_percentile_at_one():
     # 101 values 0..100 in each channel: the 98th percentile is 98 exactly
     assert metrics.display_scale(grey(*range(101))) == pytest.approx(1 / 98)
