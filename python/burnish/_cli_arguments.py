@@ -29,7 +29,7 @@ examples:
   burnish doctor --device llvmpipe
   burnish doctor --hard-cases --lookup both -o hard-cases.md
 """
-DEFAULT_SAMPLER = "regular:14"
+DEFAULT_SAMPLER = "matched:14"
 SAMPLER_HELP = (
     "matched[:COUNT], regular[:COUNT[:published]], importance[:COUNT[:hammersley|fibonacci]], prefiltered "
     "or reference[:STANDARD_ERROR] "

@@ -171,7 +171,7 @@ def render(
     size : (height, width)
         Pixels, 1..16384 each.
     sampler : Regular, Importance, Matched, Prefiltered, Reference or None
-        None: ``Regular()``, 14 samples.
+        None: ``Matched()``, 14 samples.
     device : Device or None
         None: the best one, opened once.
     spp : int
@@ -239,7 +239,7 @@ def render(
         sampler, prediction = advice.sampler, advice.to_dict()
         if advice.warning is not None:
             warnings.warn(advice.warning, RuntimeWarning, stacklevel=2)
-    sampler = _core.Regular() if sampler is None else sampler
+    sampler = _core.Matched() if sampler is None else sampler
     stops = _stops(output, display_exposure)
     if error_estimate:
         from burnish.advice.error_estimate import companion
@@ -279,7 +279,7 @@ def plan(
     scene : Scene
         As `render` takes it.
     sampler : Regular, Importance, Matched, Prefiltered, Reference or None
-        None: ``Regular()``.
+        None: ``Matched()``.
     spp : int
         Jittered frames that would be accumulated.
     filter : "box", "gauss4" or "gauss6"
@@ -296,5 +296,5 @@ def plan(
     """
     require_filter(filter)
     _require_spp(spp)
-    sampler = _core.Regular() if sampler is None else sampler
+    sampler = _core.Matched() if sampler is None else sampler
     return _core.plan(scene, sampler, int(spp), filter, is_software, _stops(output, 0.0))

@@ -27,7 +27,7 @@ enum class SampleSource {
 };
 
 struct PlanSettings {
-    Sampler sampler = Regular{};
+    Sampler sampler = Matched{};
     uint32_t spp = 1;
     PyramidFilter filter = PyramidFilter::gauss6;
     bool has_lookups = true; ///< false for benchmarks: shading alone, the picture means nothing

@@ -6,6 +6,9 @@ import numpy as np
 import pytest
 
 import burnish
+from burnish import rendering
+from burnish._cli_arguments import DEFAULT_SAMPLER
+from burnish.study.sampler_text import sampler_to_text
 
 UP = np.array([[0, 0, 1]] * 4, np.float32)
 
@@ -128,3 +131,12 @@ def test_render_takes_the_scenes_first_camera(material, monkeypatch):
         burnish.render(scene, device=object())
     with pytest.raises(SeenError, match="second"):
         burnish.render(scene, scene.cameras[1], device=object())
+
+
+def test_matched_is_the_default_of_python_and_of_the_command_line():
+    scene = burnish.Scene.sphere(burnish.Material(lobes=[burnish.KurtLobe()]))
+    scene.environment = burnish.environments.uniform()
+    default = sampler_to_text(burnish.Matched())
+    assert default == "matched:14" == DEFAULT_SAMPLER
+    assert rendering.plan(scene) == rendering.plan(scene, burnish.Matched())
+    assert rendering.plan(scene) != rendering.plan(scene, burnish.Regular())
