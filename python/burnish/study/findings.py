@@ -27,8 +27,8 @@ def _of_cell(rows: list[Row]) -> list[str]:
     owned = max(measured, key=lambda row: row.get("worst_share") or 0.0)
     if (owned.get("worst_share") or 0.0) > OWNED_BY_FEW:
         lines.append(
-            f"Careful: the worst .1 % of the pixels have {owned['worst_share']:.0%} of {owned['sampler']}'s squared "
-            "error; compare the errors of the rest as well."
+            f"Careful: the worst .1 % of the pixels have {owned['worst_share']:.0%} of {owned['sampler']}'s "
+            "squared error; compare the errors of the rest as well."
         )
     noise = max(row["reference_standard_error"] for row in rows)
     if noise > COARSE_REFERENCE * best["relative_rmse"]:
