@@ -5,6 +5,7 @@
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
+#include "burnish/sampling/filter_offsets.h"
 #include "burnish/sampling/regular_pattern.h"
 #include "burnish/sampling/sampler.h"
 #include "numpy.h"
@@ -69,6 +70,13 @@ py::array_t<double> sample_pattern(const Pair& roughness, const std::string& spa
     for (const glm::dvec3& h : pattern)
         values.insert(values.end(), {h.x, h.y, h.z});
     return make_array(std::move(values), {py::ssize_t(pattern.size()), 3});
+}
+
+py::array_t<float> offsets_of(int64_t count) {
+    std::vector<float> values;
+    for (const glm::vec2 offset : filter_offsets(count_of("count", count, 1, 65536)))
+        values.insert(values.end(), {offset.x, offset.y});
+    return make_array(std::move(values), {py::ssize_t(count), 2});
 }
 
 } // namespace
@@ -210,6 +218,19 @@ Returns
 -------
 half_vectors : (n, 3) float64
     Unit vectors in the tangent frame, z = normal.)");
+
+    m.def("filter_offsets", &offsets_of, py::arg("count"),
+          R"(Say where the rays of accumulated pictures pass a pixel.
+
+Parameters
+----------
+count : int, 1..65536
+    Pictures of equal weight.
+
+Returns
+-------
+offsets : (count, 2) float32
+    From the pixel's centre, pixels, x right, y down; their mean is 0.)");
 }
 
 } // namespace burnish

@@ -2,12 +2,14 @@
 
 import math
 import os
+import warnings
 from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
 
+from burnish import _core
 from burnish.report import Report
 
 FloatArray = NDArray[np.float32]
@@ -35,6 +37,60 @@ def relative_rmse(color: FloatArray, reference: FloatArray) -> float:
     return float(np.sqrt(np.sum((np.asarray(color, np.float64) - truth) ** 2) / energy))
 
 
+def is_same_view(one: _core.Camera, other: _core.Camera) -> bool:
+    """Whether two cameras see the same picture, to float32's rounding; near and far planes and names aside.
+
+    Parameters
+    ----------
+    one, other : Camera
+        To compare.
+    """
+    if one.is_orthographic != other.is_orthographic:
+        return False
+    extents = [c.half_height if c.is_orthographic else c.vertical_fov for c in (one, other)]
+    return bool(
+        np.isclose(extents[0], extents[1], rtol=1e-6, atol=0.0)
+        and np.allclose(one.world_from_camera, other.world_from_camera, rtol=1e-6, atol=1e-6)
+    )
+
+
+def require_comparable(
+    reference: "Frame", size: tuple[int, int], camera: _core.Camera | None, spp: int, stacklevel: int = 3
+) -> None:
+    """Refuse a reference that shows something else, and warn of one that averages more or fewer pictures.
+
+    Parameters
+    ----------
+    reference : Frame
+        The truth.
+    size : (height, width)
+        Of the picture that it is to judge, pixels.
+    camera : Camera or None
+        Of that picture; None: not known, and not compared.
+    spp : int
+        Of that picture.
+    stacklevel : int
+        Of the warning.
+
+    Raises
+    ------
+    ValueError
+        If size or camera differ.
+    """
+    got = reference.color.shape[:2]
+    if got != tuple(size):
+        raise ValueError(f"reference: expected a frame of shape {tuple(size)}, got {got}")
+    if camera is not None and reference.camera is not None and not is_same_view(camera, reference.camera):
+        raise ValueError(f"reference: expected a frame seen by {camera!r}, got another view")
+    if reference.report.spp != spp:
+        warnings.warn(
+            f"reference: expected a frame of spp {spp}, got one of spp {reference.report.spp}: the error "
+            "is also that of edges, which fewer pictures leave rougher",
+            RuntimeWarning,
+            stacklevel=stacklevel,
+        )
+
+
 class Frame:
     """Pixels of one picture, row 0 at the top, and what they cost.
 
@@ -46,7 +102,8 @@ class Frame:
     alpha : (h, w) float32
         Share of the pixel that objects cover, 0..1.
     depth : (h, w) float32, or a function that gives it when it is first asked for
-        Distance along the camera's axis; infinite where no object is.
+        Distance along the camera's axis; infinite where no object is. Of several pictures, as of `normal`,
+        that of the one whose rays pass nearest to the pixels' centres.
     normal : (h, w, 3) float32, or such a function
         World frame, unit length; 0 where no object is.
     report : Report
@@ -58,6 +115,8 @@ class Frame:
     display : (h, w, 4) uint8 or None
         Of a frame rendered with ``output="display"``: 8-bit sRGB, and coverage as 0..255. Such a frame has
         neither `color` nor `alpha`: asking for them is a ValueError.
+    camera : Camera or None
+        That it was seen by; None where it is not known.
     """
 
     def __init__(
@@ -69,6 +128,7 @@ class Frame:
         report: Report,
         error_estimate: FloatArray | None = None,
         display: NDArray[np.uint8] | None = None,
+        camera: _core.Camera | None = None,
     ) -> None:
         self._color = color
         self._alpha = alpha
@@ -77,6 +137,7 @@ class Frame:
         self.report = report
         self.error_estimate = error_estimate
         self._display = display
+        self.camera = camera
 
     @property
     def color(self) -> FloatArray:
@@ -163,16 +224,26 @@ class Frame:
         Parameters
         ----------
         reference : Frame
-            Same size; usually rendered with ``Reference()``.
+            Same size and camera; usually rendered with ``Reference()``, and of the same `spp`: then the error
+            is the sampler's. Against a truth of more pictures it is also that of edges and of all else that
+            varies within a pixel, which may be what is asked for; hence a warning and no refusal.
 
         Returns
         -------
         error : float
             0 when equal; NaN when the reference shows no object, or only black ones.
+
+        Warns
+        -----
+        RuntimeWarning
+            If the two average unlike numbers of pictures.
+
+        Raises
+        ------
+        ValueError
+            If the reference has another size or camera.
         """
-        if self.color.shape != reference.color.shape:
-            expected, got = self.color.shape[:2], reference.color.shape[:2]
-            raise ValueError(f"reference: expected a frame of shape {expected}, got {got}")
+        require_comparable(reference, self.color.shape[:2], self.camera, self.report.spp)
         covered = reference.alpha > 0
         return relative_rmse(self.color[covered], reference.color[covered])
 

@@ -175,7 +175,8 @@ def render(
     device : Device or None
         None: the best one, opened once.
     spp : int
-        Jittered frames that are accumulated, 1..65536.
+        Jittered frames that are accumulated, 1..65536: the mean over a filter 3 pixels wide around the
+        pixel's centre, which one frame looks at.
     filter : "box", "gauss4" or "gauss6"
         Reduction filter of the environment's pyramid.
     progress : callable or None
@@ -241,6 +242,7 @@ def render(
             warnings.warn(advice.warning, RuntimeWarning, stacklevel=2)
     sampler = _core.Matched() if sampler is None else sampler
     stops = _stops(output, display_exposure)
+    camera = scene.default_camera() if camera is None else camera
     if error_estimate:
         from burnish.advice.error_estimate import companion
 
@@ -251,11 +253,10 @@ def render(
         device, scene, camera, height, width, sampler, int(spp), filter, progress, strict, stops
     )
     report = dict(data.report) | ({"prediction": prediction} if prediction else {})
+    surface = (lambda: data.depth, lambda: data.normal, Report(report))
     if stops is not None:
-        return Frame(
-            None, None, lambda: data.depth, lambda: data.normal, Report(report), display=data.display
-        )
-    frame = Frame(data.color, data.alpha, lambda: data.depth, lambda: data.normal, Report(report))
+        return Frame(None, None, *surface, display=data.display, camera=camera)
+    frame = Frame(data.color, data.alpha, *surface, camera=camera)
     if error_estimate:
         from burnish.advice.error_estimate import estimate_errors
 

@@ -6,6 +6,7 @@
 #include "burnish/error.h"
 #include "burnish/render/stopwatch.h"
 #include "burnish/render/view.h"
+#include "burnish/sampling/filter_offsets.h"
 #include "burnish/vulkan/device.h"
 #include "burnish/vulkan/transfer.h"
 #include "shared/constants.h"
@@ -170,9 +171,10 @@ std::optional<Frame> Renderer::draw_once(const Scene& scene, const Camera& camer
     frame.report.compile_ms = pipelines_.take_compile_ms();
     frame.report.prepare_ms = watch.milliseconds() - frame.report.compile_ms;
 
+    const std::vector<glm::vec2> offsets = filter_offsets(spp);
     for (uint32_t picture = 0; picture < spp; ++picture) {
         shared::ViewRecord view =
-            make_view(camera, settings.width, settings.height, filter_offset(picture, spp));
+            make_view(camera, settings.width, settings.height, offsets[picture]);
         view.background_map = 0;
         keep_clip_in_range(view, surface.clip_reach(view.clip_from_world));
         vulkan::upload(targets.view, std::span<const shared::ViewRecord>(&view, 1));
@@ -195,7 +197,7 @@ std::optional<Frame> Renderer::draw_once(const Scene& scene, const Camera& camer
             after.submit();
             add_pass_times(times, after.pass_times());
         }
-        // Later pictures overwrite it.
+        // Of all pictures the first is the nearest to the pixels' centres; later ones overwrite it.
         if (picture == 0 && (spp > 1 || !is_shared)) frame.read_surface();
         if (settings.progress && !is_reference) settings.progress((picture + 1.0) / spp, "pictures");
     }

@@ -1,38 +1,10 @@
 #include "burnish/render/view.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 namespace burnish::render {
-namespace {
-
-constexpr double FILTER_RADIUS = 1.5;
-
-/// Inverse of the window's cumulative distribution at x in [0, 1].
-double sample_window(double x) {
-    constexpr size_t steps = 1024;
-    static const std::array<double, steps + 1> cumulative = [] {
-        std::array<double, steps + 1> sum{};
-        for (size_t k = 0; k < steps; ++k) {
-            const double t = 2.0 * std::numbers::pi * (double(k) + 0.5) / steps;
-            const double w =
-                0.35875 - 0.48829 * std::cos(t) + 0.14128 * std::cos(2 * t) - 0.01168 * std::cos(3 * t);
-            sum[k + 1] = sum[k] + w;
-        }
-        return sum;
-    }();
-    const double wanted = x * cumulative.back();
-    const size_t k = std::clamp<size_t>(
-        size_t(std::lower_bound(cumulative.begin(), cumulative.end(), wanted) - cumulative.begin()), 1,
-        steps);
-    const double part = (wanted - cumulative[k - 1]) / (cumulative[k] - cumulative[k - 1]);
-    return ((double(k - 1) + part) / steps * 2.0 - 1.0) * FILTER_RADIUS;
-}
-
-} // namespace
 
 shared::ViewRecord make_view(const Camera& camera, uint32_t width, uint32_t height, glm::vec2 jitter_px) {
     const float aspect = float(width) / float(height);
@@ -81,15 +53,6 @@ void keep_clip_in_range(shared::ViewRecord& view, double clip_reach) {
     constexpr int MOST_EXPONENT = 40;
     const int exponent = std::ilogb(std::max(clip_reach, 1.0)) + 1;
     if (exponent > MOST_EXPONENT) view.clip_from_world *= std::ldexp(1.0f, MOST_EXPONENT - exponent);
-}
-
-glm::vec2 filter_offset(uint32_t index, uint32_t count) {
-    if (count <= 1) return glm::vec2(0.0f);
-    // Additive recurrence of the plastic number; half a step in, so that no picture looks at the window's
-    // end.
-    const double x = std::fmod((index + 0.5) * 0.7548776662466927, 1.0);
-    const double y = std::fmod((index + 0.5) * 0.5698402909980532, 1.0);
-    return {float(sample_window(x)), float(sample_window(y))};
 }
 
 float view_depth(const Camera& camera, float depth) {

@@ -1,4 +1,4 @@
-// The view a frame is drawn from, as the shaders read it, and where in a pixel each of many pictures looks.
+// The view a frame is drawn from, as the shaders read it.
 #pragma once
 
 #include <cstdint>
@@ -17,10 +17,6 @@ shared::ViewRecord make_view(const Camera& camera, uint32_t width, uint32_t heig
 /// multiply three of them, and SwiftShader drops a triangle where that overflows. By a power of two, the same
 /// for all corners: after the division by w nothing differs.
 void keep_clip_in_range(shared::ViewRecord& view, double clip_reach);
-
-/// Offset of picture `index`, drawn from the reconstruction filter itself (a Blackman-Harris window, 3 pixels
-/// wide), so that all pictures weigh the same. Picture 0 of 1 looks at the centre.
-glm::vec2 filter_offset(uint32_t index, uint32_t count);
 
 /// Distance along the camera's axis of a reverse-z depth; infinity for 0, where nothing was drawn.
 float view_depth(const Camera& camera, float depth);

@@ -37,15 +37,24 @@ class Camera:
     far_plane: float = 1000.0
 
 
-def camera_rays(camera: Camera, size: tuple[int, int]) -> tuple[Array, Array]:
-    """Origins and directions (height, width, 3) through the pixel centres, row 0 at the top.
+def camera_rays(
+    camera: Camera, size: tuple[int, int], offset_px: npt.ArrayLike = (0.0, 0.0)
+) -> tuple[Array, Array]:
+    """Origins and directions (height, width, 3) through the pixels, row 0 at the top.
 
     Directions have length 1 along the camera's axis, so that the ray parameter is the depth.
+
+    Parameters
+    ----------
+    size : (height, width)
+    offset_px : (2,)
+        Of the rays from the pixel centres, x right, y down.
     """
     height, width = size
     matrix = as_array(camera.world_from_camera)
-    x = ((2 * np.arange(width) + 1) / width - 1) * (width / height)
-    y = 1 - (2 * np.arange(height) + 1) / height
+    right, down = as_array(offset_px)
+    x = ((2 * (np.arange(width) + right) + 1) / width - 1) * (width / height)
+    y = 1 - (2 * (np.arange(height) + down) + 1) / height
     x, y = np.broadcast_arrays(x[None, :], y[:, None])
     ones, zeros = np.ones_like(x), np.zeros_like(x)
     if camera.is_orthographic:

@@ -1,4 +1,4 @@
-"""Whole pictures and captured maps, at one sample a pixel."""
+"""Whole pictures and captured maps."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -10,6 +10,7 @@ import numpy.typing as npt
 from .arrays import Array, as_array, dot, normalize
 from .cube_map import pad_cube, sample_cube, texel_directions
 from .estimator import shade_diffuse
+from .filter_offsets import filter_offsets
 from .frame import facing_normal
 from .raster import Camera, Hits, Object, Triangles, camera_rays, cast_rays, gather_triangles, interpolate
 from .shading import shade
@@ -18,7 +19,10 @@ from .spherical_harmonics import project_cube
 
 @dataclass(frozen=True)
 class Picture:
-    """Linear radiance, coverage (0 or 1), depth along the camera's axis (infinite: nothing), world normal."""
+    """Linear radiance, coverage 0..1, depth along the camera's axis (infinite: nothing), world normal.
+
+    Depth and normal are those of the ray nearest to the pixel's centre.
+    """
 
     color: Array
     alpha: Array
@@ -44,8 +48,9 @@ def render(
     rotation: npt.ArrayLike | None = None,
     exposure: float = 0.0,
     show_background: bool = True,
+    spp: int = 1,
 ) -> Picture:
-    """Cast one ray through each pixel centre and shade what it meets.
+    """Average pictures of equal weight whose rays pass the pixels at `filter_offsets`.
 
     Parameters
     ----------
@@ -56,10 +61,46 @@ def render(
         world_from_environment: a world direction w reads the map at transpose(rotation) w.
     exposure : float
         Stops: the map's radiance is multiplied by 2^exposure.
+    spp : int
+        Pictures.
     """
-    origins, directions = (a.reshape(-1, 3) for a in camera_rays(camera, size))
-    far = camera.far_plane if camera.is_orthographic else np.inf
     triangles = gather_triangles(objects)
+    pictures = [
+        _cast_picture(
+            objects,
+            triangles,
+            camera,
+            size,
+            offset,
+            env_levels,
+            sampler,
+            rotation,
+            exposure,
+            show_background,
+        )
+        for offset in filter_offsets(spp)
+    ]
+    color, alpha = (
+        np.mean([getattr(one, name) for one in pictures], axis=0) for name in ("color", "alpha")
+    )
+    return Picture(color, alpha, pictures[0].depth, pictures[0].normal)
+
+
+def _cast_picture(
+    objects: list[Object],
+    triangles: Triangles,
+    camera: Camera,
+    size: tuple[int, int],
+    offset_px: Array,
+    env_levels: Sequence[npt.ArrayLike],
+    sampler: Any,
+    rotation: npt.ArrayLike | None,
+    exposure: float,
+    show_background: bool,
+) -> Picture:
+    """Cast one ray through each pixel and shade what it meets."""
+    origins, directions = (a.reshape(-1, 3) for a in camera_rays(camera, size, offset_px))
+    far = camera.far_plane if camera.is_orthographic else np.inf
     hits = cast_rays(triangles, origins, directions, camera.near_plane, far)
     turn = np.eye(3) if rotation is None else as_array(rotation)
     gain = 2.0**exposure

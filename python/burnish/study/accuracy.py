@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from burnish import _core
-from burnish.frame import FloatArray, Frame
+from burnish.frame import FloatArray, Frame, require_comparable
 from burnish.rendering import Filter, require_filter
 from burnish.study.identity import digest
 from burnish.study.measure import Cell
@@ -68,7 +68,8 @@ def accuracy(
     reference : sampler, text, Frame, array or None
         The truth, or how to draw it. An array is linear radiance, (h, w, 3) or (n, 3) float32; all of it
         counts, where of a frame only what objects cover does. None: ``Reference()``, which may take minutes;
-        its standard error should be a tenth of the errors that it judges.
+        its standard error should be a tenth of the errors that it judges. A frame of another `spp` counts
+        edges as errors, with a warning; one of another camera is refused.
     camera : Camera or None
         None: the scene's first, or one that sees all of it.
     size : (height, width)
@@ -102,6 +103,9 @@ def accuracy(
     rows, store = open_journal(journal)
     if reference is None:
         reference = _core.Reference()
+    if isinstance(reference, Frame) and isinstance(scene_or_points, _core.Scene):
+        seen_by = camera or next(iter(scene_or_points.cameras), None) or scene_or_points.default_camera()
+        require_comparable(reference, require_size(size), seen_by, spp)
     if isinstance(reference, Frame | np.ndarray):
         cell = _cell_of_given_reference(source, sampler_texts(samplers), reference, repeats, store)
     else:

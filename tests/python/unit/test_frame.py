@@ -91,5 +91,38 @@ def test_error_refuses_another_size(frame):
         frame.error(small)
 
 
+def seen_by(frame, camera, spp=1):
+    report = Report({"spp": spp})
+    return Frame(frame.color, frame.alpha, frame.depth, frame.normal, report, camera=camera)
+
+
+CAMERA = burnish.Camera.look_at((0, 1, 4), (0, 0, 0), vertical_fov=0.7)
+
+
+@pytest.mark.parametrize(
+    "camera",
+    [
+        burnish.Camera.look_at((0, 1, 4.001), (0, 0, 0), vertical_fov=0.7),
+        burnish.Camera.look_at((0, 1, 4), (0, 0, 0), vertical_fov=0.701),
+        burnish.Camera.orthographic((0, 1, 4), (0, 0, 0), half_height=1.0),
+    ],
+    ids=["moved", "zoomed", "orthographic"],
+)
+def test_error_refuses_another_camera(frame, camera):
+    with pytest.raises(ValueError, match=r"reference: expected a frame seen by Camera\(.*, got another view"):
+        seen_by(frame, CAMERA).error(seen_by(frame, camera))
+
+
+def test_error_compares_no_camera_that_is_not_known_and_no_near_plane(frame):
+    nearer = burnish.Camera.look_at((0, 1, 4), (0, 0, 0), vertical_fov=0.7, near_plane=0.5)
+    for one, other in ((CAMERA, CAMERA), (CAMERA, nearer), (CAMERA, None), (None, CAMERA)):
+        assert seen_by(frame, one).error(seen_by(frame, other)) == 0.0
+
+
+def test_error_warns_of_another_number_of_pictures(frame):
+    with pytest.warns(RuntimeWarning, match=r"reference: expected a frame of spp 4, got one of spp 64"):
+        assert seen_by(frame, CAMERA, 4).error(seen_by(frame, CAMERA, 64)) == 0.0
+
+
 def test_frame_says_what_it_is(frame):
     assert repr(frame) == "Frame(8x6, 1.5 ms)"
