@@ -1,7 +1,7 @@
 """Limits on what is read, errors in one form, and files that appear whole or not at all."""
 
 import os
-import tempfile
+import secrets
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -60,24 +60,32 @@ def replacing(path: str | os.PathLike[str]) -> Iterator[str]:
         with told_as_file_error(path):
             yield os.fspath(path)
         return
-    try:
-        descriptor, temporary = tempfile.mkstemp(
-            prefix=f".{target.name}-", suffix=f".part{target.suffix}", dir=target.parent
-        )
-    except OSError as error:
-        raise file_error(path, f"cannot write into {target.parent}: {error.strerror}") from error
+    descriptor, temporary = _create_beside(target, path)
     os.close(descriptor)
     try:
         with told_as_file_error(path):
             yield temporary
             _flush_to_disk(temporary)
-            umask = os.umask(0)
-            os.umask(umask)
-            os.chmod(temporary, 0o666 & ~umask)  # mkstemp makes it private; a new file would not be
             os.replace(temporary, target)
     except BaseException:
         Path(temporary).unlink(missing_ok=True)
         raise
+
+
+def _create_beside(target: Path, path: str | os.PathLike[str]) -> tuple[int, str]:
+    """Create a file of a name that nobody has, with the permissions that any new file gets.
+
+    ``tempfile.mkstemp`` makes it private, and what others are due can only be asked by changing it for all
+    threads (``os.umask``).
+    """
+    while True:
+        temporary = target.with_name(f".{target.name}-{secrets.token_hex(4)}.part{target.suffix}")
+        try:
+            return os.open(temporary, os.O_RDWR | os.O_CREAT | os.O_EXCL, 0o666), os.fspath(temporary)
+        except FileExistsError:
+            continue
+        except OSError as error:
+            raise file_error(path, f"cannot write into {target.parent}: {error.strerror}") from error
 
 
 def _flush_to_disk(path: str) -> None:
