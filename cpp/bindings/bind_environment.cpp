@@ -8,6 +8,7 @@
 #include <pybind11/stl.h>
 
 #include "burnish/scene/environment.h"
+#include "burnish/scene/hdr.h"
 #include "numpy.h"
 
 namespace burnish {

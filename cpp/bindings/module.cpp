@@ -11,6 +11,7 @@ namespace py = pybind11;
 namespace burnish {
 void bind_vulkan(py::module_& m);
 void bind_environment(py::module_& m);
+void bind_pictures(py::module_& m);
 void bind_scene(py::module_& m);
 void bind_sampling(py::module_& m);
 void bind_render(py::module_& m);
@@ -47,6 +48,7 @@ PYBIND11_MODULE(_core, m) {
     py::register_exception<burnish::VulkanError>(m, "VulkanError", PyExc_RuntimeError);
     burnish::bind_vulkan(m);
     burnish::bind_environment(m);
+    burnish::bind_pictures(m);
     burnish::bind_scene(m);
     burnish::bind_sampling(m);
     burnish::bind_render(m);

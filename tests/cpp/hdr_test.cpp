@@ -1,4 +1,4 @@
-#include "burnish/scene/environment.h"
+#include "burnish/scene/hdr.h"
 
 #include <array>
 #include <cstdlib>
@@ -109,6 +109,13 @@ TEST(ReadHdr, HeadersOfOtherWritersAreRead) {
     EXPECT_FLOAT_EQ(image.radiance[0], 0.5f / 8.0f);
     EXPECT_FLOAT_EQ(image.radiance[1], 0.5f / 16.0f);
     EXPECT_FLOAT_EQ(image.radiance[2], 0.5f / 32.0f);
+    const std::string squared = "#?RGBE\nGAMMA=2\nEXPOSURE=4\nPIXASPECT=.5\nPIXASPECT=4\n"
+                                "PRIMARIES=.64 .33 .3 .6 .15 .06 .3127 .329\n\n-Y 1 +X 1\n";
+    const HdrImage corrected = read_bytes(squared + pixel);
+    EXPECT_FLOAT_EQ(corrected.radiance[0], 0.25f / 4.0f);
+    EXPECT_EQ(corrected.pixel_aspect, 2.0);
+    EXPECT_EQ(corrected.primaries, (std::vector<double>{.64, .33, .3, .6, .15, .06, .3127, .329}));
+    EXPECT_EQ(read_bytes("#?RGBE\nPRIMARIES=1 nonsense\n\n-Y 1 +X 1\n" + pixel).primaries.size(), 8u);
     const std::string xyz = "#?RADIANCE\nFORMAT=32-bit_rle_xyze\n\n-Y 1 +X 1\n";
     const std::string white = {static_cast<char>(122), static_cast<char>(128), static_cast<char>(139),
                                static_cast<char>(128)};
@@ -118,14 +125,16 @@ TEST(ReadHdr, HeadersOfOtherWritersAreRead) {
 }
 
 TEST(ReadHdr, BrokenFilesAreRefusedInWords) {
-    const std::array<std::pair<std::string, std::string>, 9> cases = {{
+    const std::array<std::pair<std::string, std::string>, 11> cases = {{
+        {"#?RADIANCE\nGAMMA=0\n\n", "GAMMA: expected a number in 0.1..10, got '0'"},
+        {"#?RADIANCE\nPIXASPECT=-1\n\n", "PIXASPECT: expected a positive number in 1e-30..1e30, got '-1'"},
         {"", "got the end of the file in the header"},
         {"hello\n", "expected a Radiance picture starting with '#?', got 'hello'"},
         {"#?RADIANCE\nFORMAT=float\n\n", "FORMAT: expected 32-bit_rle_rgbe or 32-bit_rle_xyze, got 'float'"},
         {"#?RADIANCE\nEXPOSURE=0\n\n", "EXPOSURE: expected a positive number in 1e-30..1e30, got '0'"},
         {HEADER + "-Y4 +X8888888A'8\n", "sizes in 1..1000000, got '-Y4 +X8888888A'8'"},
         {HEADER + "-Y 1000000 +X 1000000\n",
-         "expected at most 67108864 pixels, got 1000000 scanlines of 1000000"},
+         "expected at most 268435456 pixels, got 1000000 scanlines of 1000000"},
         {HEADER + "-Y 1000 +X 1000\n" + grey(5),
          "expected at least 8000 bytes for 1000 scanlines of 1000 pixels, got 4"},
         {HEADER + "-Y 2 +X 3\n" + grey(5) + grey(5) + grey(5) + grey(5) + grey(5),

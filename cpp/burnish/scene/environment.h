@@ -89,16 +89,4 @@ void require_face_size(uint32_t face_size);
 glm::vec3 cube_direction(uint32_t face, float u, float v);
 uint32_t cube_face(const glm::vec3& direction, float& u, float& v);
 
-/// A Radiance .hdr picture: width, height and height * width * 3 floats, row 0 at the top whatever the file's
-/// orientation.
-struct HdrImage {
-    uint32_t width = 0;
-    uint32_t height = 0;
-    std::vector<float> radiance;
-};
-
-/// Reads new RLE, old RLE and flat files, headers of Photoshop included; EXPOSURE and COLORCORR are divided
-/// out, XYZE is converted to Rec. 709. Throws FileError (path, what was expected, what came).
-HdrImage read_hdr(const std::string& path);
-
 } // namespace burnish

@@ -3,7 +3,7 @@
 //   new RLE   2 2 and the length in two bytes, then four planes of runs; lengths 8..32767 only
 //   old RLE   four bytes a pixel, where 1 1 1 n repeats the last pixel n times; directly after another
 //   repeat, 256 n times flat      old RLE without repeats
-#include "burnish/scene/environment.h"
+#include "burnish/scene/hdr.h"
 
 #include <algorithm>
 #include <array>
@@ -19,8 +19,8 @@ namespace burnish {
 
 namespace {
 
-// 64 megapixels are 0.8 GB of floats, and more than faces of 2048 can show.
-constexpr uint64_t MAX_PIXELS = uint64_t{1} << 26;
+// 256 megapixels are 3.2 GB of floats, and twice the maps of 16384 x 8192 that shops sell.
+constexpr uint64_t MAX_PIXELS = uint64_t{1} << 28;
 // No picture of MAX_PIXELS is larger: four bytes a pixel, a few per cent of run marks, and the header.
 constexpr uint64_t MAX_FILE_BYTES = 5 * MAX_PIXELS;
 
@@ -28,20 +28,7 @@ using Pixel = std::array<uint8_t, 4>; // red, green, blue mantissas (or X, Y, Z)
 
 class HdrReader {
 public:
-    explicit HdrReader(const std::string& path) : path_(path) {
-        std::error_code error;
-        if (!std::filesystem::is_regular_file(path, error)) {
-            fail(error || !std::filesystem::exists(path, error) ? "expected a file, found none"
-                                                                : "expected a file, got something else");
-        }
-        std::ifstream stream(path, std::ios::binary);
-        if (!stream) {
-            fail("expected a readable file, cannot open it");
-        }
-        bytes_.resize(std::min<uint64_t>(std::filesystem::file_size(path), MAX_FILE_BYTES));
-        stream.read(reinterpret_cast<char*>(bytes_.data()), static_cast<std::streamsize>(bytes_.size()));
-        bytes_.resize(static_cast<size_t>(stream.gcount()));
-    }
+    HdrReader(const std::string& path, std::span<const uint8_t> bytes) : path_(path), bytes_(bytes) {}
 
     HdrImage read() {
         const HdrHeader header = parse_hdr_header(path_, bytes_);
@@ -49,15 +36,21 @@ public:
         fast_ = header.fast;
         const HdrAxis& slow = header.slow;
         HdrImage image;
+        image.is_xyz = header.is_xyz;
+        image.divisor = header.divisor;
+        image.gamma = header.gamma;
+        image.pixel_aspect = header.pixel_aspect;
+        image.primaries = header.primaries;
         image.width = slow.is_x ? slow.size : fast_.size;
         image.height = slow.is_x ? fast_.size : slow.size;
         check_size(slow.size, fast_.size);
         image.radiance.resize(size_t{3} * image.width * image.height);
         std::vector<Pixel> scanline(fast_.size);
-        const std::array<std::array<float, 256>, 3> scales = make_scales(header);
+        const std::array<float, 256> scales = make_scales();
+        const glm::vec3 factor(1.0 / header.divisor);
         for (uint32_t i = 0; i < slow.size; ++i) {
             read_scanline(i, slow.size, scanline);
-            store_scanline(scanline, i, slow, header.is_xyz, scales, image);
+            store_scanline(scanline, i, header, scales, factor, image);
         }
         return image;
     }
@@ -155,20 +148,20 @@ private:
         }
     }
 
-    // value = mantissa 2^(exponent - 136) / divisor; exponent 0 is black.
-    static std::array<std::array<float, 256>, 3> make_scales(const HdrHeader& header) {
-        std::array<std::array<float, 256>, 3> scales{};
-        for (size_t channel = 0; channel < 3; ++channel) {
-            const auto factor = static_cast<float>(1.0 / header.divisor[static_cast<int>(channel)]);
-            for (int exponent = 1; exponent < 256; ++exponent) {
-                scales[channel][static_cast<size_t>(exponent)] = std::ldexp(1.0f, exponent - 136) * factor;
-            }
+    // value = mantissa 2^(exponent - 136); exponent 0 is black.
+    static std::array<float, 256> make_scales() {
+        std::array<float, 256> scales{};
+        for (int exponent = 1; exponent < 256; ++exponent) {
+            scales[static_cast<size_t>(exponent)] = std::ldexp(1.0f, exponent - 136);
         }
         return scales;
     }
 
-    void store_scanline(std::span<const Pixel> scanline, uint32_t index, const HdrAxis& slow, bool is_xyz,
-                        const std::array<std::array<float, 256>, 3>& scales, HdrImage& image) const {
+    void store_scanline(std::span<const Pixel> scanline, uint32_t index, const HdrHeader& header,
+                        const std::array<float, 256>& scales, const glm::vec3& factor,
+                        HdrImage& image) const {
+        const HdrAxis& slow = header.slow;
+        const auto gamma = static_cast<float>(header.gamma);
         // CIE XYZ to linear Rec. 709 with white D65, columns as GLM has them (IEC 61966-2-1, inverted).
         const glm::mat3 rgb_from_xyz(3.2404542f, -0.9692660f, 0.0556434f, -1.5371385f, 1.8760108f,
                                      -0.2040259f, -0.4985314f, 0.0415560f, 1.0572252f);
@@ -181,9 +174,12 @@ private:
             const size_t column = axis_x.is_increasing ? x : axis_x.size - 1 - x;
             const size_t row = axis_y.is_increasing ? axis_y.size - 1 - y : y;
             const Pixel& pixel = scanline[j];
-            glm::vec3 value(pixel[0] * scales[0][pixel[3]], pixel[1] * scales[1][pixel[3]],
-                            pixel[2] * scales[2][pixel[3]]);
-            if (is_xyz) {
+            glm::vec3 value = scales[pixel[3]] * glm::vec3(pixel[0], pixel[1], pixel[2]);
+            if (gamma != 1.0f) {
+                value = glm::pow(value, glm::vec3(gamma));
+            }
+            value *= factor;
+            if (header.is_xyz) {
                 value = rgb_from_xyz * value;
             }
             float* stored = image.radiance.data() + 3 * (row * image.width + column);
@@ -193,16 +189,33 @@ private:
         }
     }
 
-    std::string path_;
-    std::vector<uint8_t> bytes_;
+    const std::string& path_;
+    std::span<const uint8_t> bytes_;
     size_t position_ = 0;
     HdrAxis fast_;
 };
 
 } // namespace
 
+HdrImage decode_hdr(const std::string& name, std::span<const uint8_t> bytes) {
+    return HdrReader(name, bytes.first(std::min<uint64_t>(bytes.size(), MAX_FILE_BYTES))).read();
+}
+
 HdrImage read_hdr(const std::string& path) {
-    return HdrReader(path).read();
+    std::error_code error;
+    if (!std::filesystem::is_regular_file(path, error)) {
+        throw FileError(path, error || !std::filesystem::exists(path, error)
+                                  ? "expected a file, found none"
+                                  : "expected a file, got something else");
+    }
+    std::ifstream stream(path, std::ios::binary);
+    if (!stream) {
+        throw FileError(path, "expected a readable file, cannot open it");
+    }
+    std::vector<uint8_t> bytes(std::min<uint64_t>(std::filesystem::file_size(path), MAX_FILE_BYTES));
+    stream.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+    bytes.resize(static_cast<size_t>(stream.gcount()));
+    return decode_hdr(path, bytes);
 }
 
 } // namespace burnish

@@ -97,7 +97,30 @@ private:
             for (int channel = 0; channel < 3; ++channel) {
                 header_.divisor[channel] *= checked_factor("COLORCORR", factor[channel], *correction);
             }
+        } else if (const auto gamma = value_of("GAMMA=")) {
+            header_.gamma = checked_gamma(*gamma);
+        } else if (const auto aspect = value_of("PIXASPECT=")) {
+            std::istringstream text(*aspect);
+            double factor = 0.0;
+            text >> factor;
+            header_.pixel_aspect *= checked_factor("PIXASPECT", factor, *aspect);
+        } else if (const auto primaries = value_of("PRIMARIES=")) {
+            std::istringstream text(*primaries);
+            header_.primaries.assign(8, 0.0); // what is missing or no number is no chromaticity either
+            for (double& value : header_.primaries) {
+                if (!(text >> value)) value = 0.0;
+            }
         }
+    }
+
+    double checked_gamma(const std::string& value) const {
+        std::istringstream text(value);
+        double gamma = 0.0;
+        text >> gamma;
+        if (!(gamma >= 0.1 && gamma <= 10.0)) {
+            fail("GAMMA: expected a number in 0.1..10, got " + quoted(value));
+        }
+        return gamma;
     }
 
     double checked_factor(const char* name, double factor, const std::string& text) const {

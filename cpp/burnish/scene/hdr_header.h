@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <span>
 #include <string>
+#include <vector>
 
 #include <glm/glm.hpp>
 
@@ -18,10 +19,14 @@ struct HdrAxis {
 
 struct HdrHeader {
     bool is_xyz = false;
-    glm::dvec3 divisor{1.0}; ///< product of all EXPOSURE and COLORCORR
-    HdrAxis slow;            ///< across scanlines
-    HdrAxis fast;            ///< along a scanline
-    size_t size_bytes = 0;   ///< the first scanline starts here
+    glm::dvec3 divisor{1.0};   ///< product of all EXPOSURE and COLORCORR
+    double gamma = 1.0;        ///< stored values are the linear ones to the power of 1 / gamma
+    double pixel_aspect = 1.0; ///< product of all PIXASPECT: height by width of a pixel
+    std::vector<double>
+        primaries;         ///< x, y of red, green, blue and white as they stand; empty: none are given
+    HdrAxis slow;          ///< across scanlines
+    HdrAxis fast;          ///< along a scanline
+    size_t size_bytes = 0; ///< the first scanline starts here
 };
 
 /// Throws FileError with `path`; sizes are in 1..1000000.
