@@ -8,7 +8,6 @@
 #include <pybind11/stl.h>
 
 #include "burnish/scene/environment.h"
-#include "burnish/scene/hdr.h"
 #include "numpy.h"
 
 namespace burnish {
@@ -110,14 +109,6 @@ py::array_t<float> rotation_of(const Environment& environment) {
         }
     }
     return rows;
-}
-
-py::array_t<float> read_hdr_array(const std::string& path) {
-    HdrImage image = [&] {
-        const py::gil_scoped_release release;
-        return read_hdr(path);
-    }();
-    return make_array<float>(std::move(image.radiance), {image.height, image.width, 3});
 }
 
 void bind_texel_report(py::module_& m) {
@@ -228,23 +219,6 @@ ValueError
                            ", exposure=", environment.exposure,
                            ", repaired_texels=", environment.texel_report().count(), ")");
         });
-
-    m.def("read_hdr", &read_hdr_array, py::arg("path"), R"(Read a Radiance .hdr picture.
-
-Parameters
-----------
-path : str
-    File in new RLE, old RLE or flat form, RGBE or XYZE.
-
-Returns
--------
-radiance : (h, w, 3) float32
-    Linear radiance, top row first; EXPOSURE and COLORCORR of the header are divided out.
-
-Raises
-------
-FileError
-    If the file is missing, damaged or larger than 64 megapixels.)");
 }
 
 } // namespace burnish

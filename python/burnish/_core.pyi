@@ -1,6 +1,5 @@
 """Types of the compiled part. Its docstrings say what the names mean; tests hold this file against it."""
 
-import os
 from collections.abc import Callable, Sequence
 from typing import Any, Literal, TypeAlias
 
@@ -12,10 +11,11 @@ from burnish._samplers import Matched as Matched
 from burnish._samplers import Prefiltered as Prefiltered
 from burnish._samplers import Reference as Reference
 from burnish._samplers import Regular as Regular
+from burnish.images.source import FilePath as _Path
+from burnish.images.source import PictureFile as _PictureFile
 
 _Float32: TypeAlias = NDArray[np.float32]
 _Prefiltered: TypeAlias = list[tuple[float, _Float32]]
-_Path: TypeAlias = str | os.PathLike[str]
 _Pair: TypeAlias = float | Sequence[float]
 _Color: TypeAlias = float | Sequence[float]
 _Rotation: TypeAlias = float | ArrayLike | None
@@ -306,12 +306,16 @@ class Environment:
     # Added by burnish._methods.
     @staticmethod
     def from_file(
-        path: _Path, face_size: int | None = None, exposure: float = 0.0, rotation: Any = None
+        path: _PictureFile,
+        face_size: int | None = None,
+        exposure: float = 0.0,
+        rotation: Any = None,
+        part: str | int | None = None,
+        layer: str | None = None,
     ) -> Environment: ...
     def pyramid(self, filter: _Filter = "gauss6", device: Device | None = None) -> list[_Float32]: ...
     def prefiltered(self, filter: _Filter = "gauss6", device: Device | None = None) -> _Prefiltered: ...
 
-def read_hdr(path: str) -> _Float32: ...
 def decode_hdr(data: bytes, name: str) -> tuple[_Float32, dict[str, Any]]: ...
 def decode_png16(data: bytes, name: str) -> NDArray[np.uint16]: ...
 

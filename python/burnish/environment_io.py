@@ -1,6 +1,5 @@
 """Environments from picture files."""
 
-import os
 import warnings
 from typing import Any
 
@@ -12,6 +11,7 @@ from burnish._core import Environment
 from burnish.images import exr_header
 from burnish.images.files import file_error
 from burnish.images.picture import Picture, read_picture
+from burnish.images.source import PictureFile, open_source
 
 MAX_FACE_SIZE = 2048
 
@@ -38,10 +38,12 @@ def _cube_faces(picture: Picture) -> tuple[NDArray[np.float32], str] | None:
 
 
 def environment_from_file(
-    path: str | os.PathLike[str],
+    path: PictureFile,
     face_size: int | None = None,
     exposure: float = 0.0,
     rotation: Any = None,
+    part: str | int | None = None,
+    layer: str | None = None,
 ) -> Environment:
     """Load an environment from an OpenEXR, Radiance, PNG or JPEG file.
 
@@ -52,10 +54,13 @@ def environment_from_file(
     samples its environment maps up to the border: lat-long maps are read so; the faces of its cubes keep
     their texels, which lie up to half a texel further inside here.
 
+    Colours become linear Rec. 709. What else the file says is used, or said in the notes of the environment;
+    ``help(burnish.images)`` has a table of all fields.
+
     Parameters
     ----------
-    path : path
-        The first bytes decide the format, not the name.
+    path : path, bytes, or binary file object
+        The first bytes decide the format, not the name. An open file is read from where it stands to its end.
     face_size : int or None
         A power of two in 1..2048. None takes the least that loses no detail: for a lat-long map of width w
         the least power of two >= w/4, for a cube the least one >= its faces, both at most 2048. A map whose
@@ -64,6 +69,11 @@ def environment_from_file(
         Stops; the radiance is multiplied by 2**exposure when it is looked up.
     rotation : None, float or (3, 3) array
         Turns the map in the world: degrees about +y, or the matrix world_from_environment.
+    part : str, int or None
+        Name, view or index of a part of an OpenEXR file. None: the first that is a picture.
+    layer : str or None
+        What stands before the last dot of an OpenEXR file's channels, empty for those without one. None: the
+        channels without a layer, or the only layer of colour.
 
     Returns
     -------
@@ -74,15 +84,22 @@ def environment_from_file(
     ------
     FileError
         If the file is missing, damaged, or no environment by its shape.
+    ValueError
+        If `path` is none of these, or there is no such part or layer.
 
     Warns
     -----
     UserWarning
-        For PNG and JPEG, which hold no radiance above 1.
+        For PNG and JPEG, which hold no radiance above 1, and for what a file says that would change the map
+        and is not used.
     """
-    picture = read_picture(path)
+    source = open_source(path)
+    picture = read_picture(source, part, layer)
     height, width = picture.pixels.shape[:2]
-    notes = []
+    notes = [*picture.notes]
+    ignored = [*picture.ignored]
+    if picture.pixels.shape[2] == 4 and not (picture.pixels[..., 3] == 1.0).all():
+        notes.append("alpha is left out: the colours are read as they stand.")
     cube = None if picture.envmap == exr_header.LATLONG else _cube_faces(picture)
     if cube is not None:
         faces, layout = cube
@@ -103,15 +120,16 @@ def environment_from_file(
         notes.append(f"lat-long map of {width} x {height} resampled by area to faces of {size}.")
     else:
         raise file_error(
-            path,
+            source.name,
             "expected an environment of width:height 2:1 (lat-long), 1:6 or 6:1 (strip of faces), "
             f"3:4 or 4:3 (cross), got {width} x {height}",
         )
     if not picture.is_high_dynamic_range:
-        notes.append(f"{picture.format} holds no radiance above 1: lights in it are far too dim.")
-        warnings.warn(f"{os.fspath(path)}: {notes[-1]}", UserWarning, stacklevel=2)
-    environment.name = os.path.basename(os.fspath(path))
-    environment.notes = notes
+        ignored.append(f"{picture.format} holds no radiance above 1: lights in it are far too dim.")
+    for sentence in ignored:
+        warnings.warn(f"{source.name}: {sentence}", UserWarning, stacklevel=2)
+    environment.name = source.label
+    environment.notes = notes + ignored
     return environment
 
 

@@ -1,65 +1,28 @@
-"""OpenEXR pictures through the OpenEXR package."""
-
-import contextlib
-import io
-import json
-import os
-from collections.abc import Mapping
-from typing import Any
+"""OpenEXR pictures: the part and layer that is one, in linear Rec. 709."""
 
 import numpy as np
-import OpenEXR
 from numpy.typing import NDArray
 
-from burnish.images.exr_header import ExrPart, read_exr_header
-from burnish.images.files import file_error, replacing
+from burnish.images import primaries
+from burnish.images.exr_choice import ExrChoice, choose_picture
+from burnish.images.exr_header import read_exr_header
+from burnish.images.exr_parts import CUBE, LATLONG, ExrPart
+from burnish.images.exr_samples import read_samples
+from burnish.images.exr_writer import write_exr
+from burnish.images.pixels import Picture
+from burnish.images.source import PictureFile, Source, open_source
 
-_HALF_MAX = 65504.0
+__all__ = ["read_exr", "read_exr_picture", "write_exr"]
 
-
-def _color_names(path: str | os.PathLike[str], part: ExrPart) -> list[str]:
-    """Names of the channels that make red, green, blue and perhaps alpha; a missing colour is an empty
-    name.
-    """
-    names = [channel.name for channel in part.channels]
-    prefix = ""
-    if not {"R", "G", "B", "Y"} & set(names):
-        layers = sorted({n[: n.rindex(".") + 1] for n in names if n.endswith((".R", ".G", ".B"))})
-        if len(layers) != 1:
-            raise file_error(
-                path, f"expected channels R, G, B or Y, or one layer of them, got {', '.join(names)}"
-            )
-        prefix = layers[0]
-    if {"RY", "BY"} & set(names):
-        raise file_error(
-            path, "expected RGB or Y, got luminance-chroma channels (Y, RY, BY); convert the file to RGB"
-        )
-    if "Y" in names and not {"R", "G", "B"} & set(names):
-        color = ["Y", "Y", "Y"]
-    else:
-        color = [prefix + c if prefix + c in names else "" for c in "RGB"]
-    if prefix + "A" in names:
-        color.append(prefix + "A")
-    for channel in part.channels:
-        if channel.name in color and channel.sampling != (1, 1):
-            raise file_error(path, f"channel {channel.name}: expected sampling 1, 1, got {channel.sampling}")
-    return color
-
-
-def _decode(path: str | os.PathLike[str]) -> dict[str, NDArray[Any]]:
-    """Level 0 of every channel of the first part."""
-    printed = io.StringIO()  # where samples are damaged the package prints a warning and returns no part
-    try:
-        with (
-            contextlib.redirect_stdout(printed),
-            OpenEXR.File(os.fspath(path), separate_channels=True) as file,
-        ):
-            if file.parts:
-                return {name: channel.pixels for name, channel in file.parts[0].channels.items()}
-    except Exception as error:  # the package raises what its C++ side throws, UnicodeDecodeError included
-        raise file_error(path, f"expected a sound OpenEXR file, the library says: {error}") from error
-    said = " ".join(printed.getvalue().split()) or "no samples"
-    raise file_error(path, f"expected all its samples, some are damaged or missing ({said})")
+# Of the Color Interop Forum, as OpenEXR 3.5 lists them.
+_INTEROP_IDS = {
+    "lin_rec709_scene": primaries.REC_709,
+    "lin_ap0_scene": primaries.AP0,
+    "lin_ap1_scene": primaries.AP1,
+    "lin_p3d65_scene": primaries.P3_D65,
+    "lin_rec2020_scene": primaries.REC_2020,
+    "lin_adobergb_scene": primaries.ADOBE_RGB,
+}
 
 
 def _to_display_window(part: ExrPart, pixels: NDArray[np.float32]) -> NDArray[np.float32]:
@@ -77,22 +40,109 @@ def _to_display_window(part: ExrPart, pixels: NDArray[np.float32]) -> NDArray[np
     return shown
 
 
-def read_exr(path: str | os.PathLike[str]) -> tuple[NDArray[np.float32], int | None]:
-    """Read the first part of an OpenEXR file.
+def _color_space(part: ExrPart, choice: ExrChoice) -> tuple[float, ...] | None:
+    """What the part says its R, G, B are, in this order: chromaticities, a known colour space, ACES."""
+    known = _INTEROP_IDS.get(part.color_interop_id)
+    if part.chromaticities is not None:
+        if known is not None and not primaries.are_same(known, part.chromaticities):
+            choice.ignored.append(
+                f"colorInteropID '{part.color_interop_id}' contradicts chromaticities, which are used."
+            )
+        return part.chromaticities
+    if known is not None:
+        return known
+    if part.color_interop_id:
+        choice.ignored.append(
+            f"colorInteropID '{part.color_interop_id}' is none of linear primaries known here: values "
+            "are read as linear Rec. 709."
+        )
+    return primaries.AP0 if part.aces_container == 1 else None
+
+
+def _to_rec709(pixels: NDArray[np.float32], part: ExrPart, choice: ExrChoice) -> None:
+    """Convert in place, where the part says what its colours are."""
+    if choice.is_xyz:
+        primaries.convert(pixels, primaries.rec709_from_xyz())
+        return
+    chromaticities = _color_space(part, choice)
+    if chromaticities is None or len(set(choice.color)) == 1:  # grey has the white of whatever primaries
+        return
+    try:
+        matrix = primaries.rec709_from_rgb(chromaticities)
+    except ValueError as error:
+        choice.ignored.append(f"{error}; values are read as linear Rec. 709.")
+        return
+    if matrix is not None:
+        primaries.convert(pixels, matrix)
+        choice.notes.append(
+            f"chromaticities of {primaries.describe(chromaticities)} turned into linear Rec. 709 (Bradford)."
+        )
+
+
+def _note_fields(part: ExrPart, choice: ExrChoice) -> None:
+    """Say which attributes change what is seen and are not used, and which windows are."""
+    if part.pixel_aspect_ratio != 1.0:
+        choice.ignored.append(
+            f"pixelAspectRatio {part.pixel_aspect_ratio:.4g} is not applied: pixels are square."
+        )
+    if part.adopted_neutral is not None:
+        x, y = part.adopted_neutral
+        if part.chromaticities is None or not np.allclose(
+            (x, y), part.chromaticities[6:], rtol=0.0, atol=1e-3
+        ):
+            choice.ignored.append(f"adoptedNeutral {x:.4g}, {y:.4g} is not applied: no white is balanced.")
+    if part.white_luminance is not None:
+        choice.notes.append(
+            f"whiteLuminance {part.white_luminance:.4g} cd/m2 is not applied: radiance stays relative."
+        )
+    if part.envmap is not None and part.envmap not in (LATLONG, CUBE):
+        choice.ignored.append(f"envmap {part.envmap} is no layout that is known: proportions decide.")
+    if part.display_window != part.data_window:
+        what = "data window" if part.envmap in (LATLONG, CUBE) else "display window"
+        choice.notes.append(
+            f"the {what} is read (data {part.data_window}, display {part.display_window}), 0 beyond the data."
+        )
+
+
+def read_exr_picture(source: Source, part: str | int | None = None, layer: str | None = None) -> Picture:
+    """Read the picture of an OpenEXR file together with what is said about it; as `read_exr`."""
+    header = read_exr_header(source)
+    choice = choose_picture(source.name, header.parts, part, layer)
+    chosen = header.parts[choice.index]
+    names = [*choice.color, *([choice.alpha] if choice.alpha else [])]
+    pixels = read_samples(source, header, choice.index, names)
+    _to_rec709(pixels, chosen, choice)
+    _note_fields(chosen, choice)
+    envmap = chosen.envmap if chosen.envmap in (LATLONG, CUBE) else None
+    if envmap is None:
+        pixels = _to_display_window(chosen, pixels)
+    return Picture(pixels, "OpenEXR", envmap, choice.notes, choice.ignored)
+
+
+def read_exr(
+    path: PictureFile, part: str | int | None = None, layer: str | None = None
+) -> tuple[NDArray[np.float32], int | None]:
+    """Read the picture of an OpenEXR file.
 
     Half, float and uint samples, scan lines and tiles (level 0), any compression the OpenEXR package knows. A
-    missing colour is 0; luminance alone gives grey. The picture is what the display window shows, 0 where
-    there is no data; environment maps, marked by the attribute envmap, are their data window.
+    missing colour is 0; luminance alone gives grey. Other primaries are turned into linear Rec. 709. The
+    picture is what the display window shows, 0 where there is no data; environment maps, marked by the
+    attribute envmap, are their data window. ``burnish.images`` has the table of all fields.
 
     Parameters
     ----------
-    path : path
+    path : path, bytes, or binary file object
         Any name; the magic number decides.
+    part : str, int or None
+        Name, view or index of a part. None: the first that is a picture.
+    layer : str or None
+        What stands before the last dot of its channels, empty for those without one. None: the channels
+        without a layer, or the only layer of colour.
 
     Returns
     -------
     pixels : (h, w, 3) or (h, w, 4) float32
-        Linear, as stored: NaN and infinities are kept.
+        Linear Rec. 709: NaN and infinities are kept.
     envmap : int or None
         The attribute: `exr_header.LATLONG`, `exr_header.CUBE`, or None where there is none.
 
@@ -100,101 +150,8 @@ def read_exr(path: str | os.PathLike[str]) -> tuple[NDArray[np.float32], int | N
     ------
     FileError
         If the file is damaged, deep, luminance-chroma, or declares more than it can hold.
+    ValueError
+        If there is no such part or layer.
     """
-    part = read_exr_header(path)[0]
-    names = _color_names(path, part)
-    channels = _decode(path)
-    height, width = part.size
-    pixels = np.zeros((height, width, len(names)), np.float32)
-    for i, name in enumerate(names):
-        if name:
-            if name not in channels or channels[name].shape != (height, width):
-                raise file_error(
-                    path, f"channel {name}: expected {height} x {width} samples, got none or another shape"
-                )
-            pixels[..., i] = channels[name]
-    return (pixels if part.envmap is not None else _to_display_window(part, pixels)), part.envmap
-
-
-def _split_channels(image: NDArray[Any] | Mapping[str, NDArray[Any]]) -> dict[str, NDArray[Any]]:
-    """One two-dimensional array per channel name."""
-    layers = image if isinstance(image, Mapping) else {"": image}
-    channels: dict[str, NDArray[Any]] = {}
-    for key, value in layers.items():
-        array = np.asarray(value)
-        if array.ndim == 2:
-            channels[key or "Y"] = array
-        elif array.ndim == 3 and array.shape[2] in (3, 4):
-            prefix = "" if key in ("", "RGB", "RGBA") else key + "."
-            for i, suffix in enumerate("RGBA"[: array.shape[2]]):
-                channels[prefix + suffix] = array[..., i]
-        else:
-            raise ValueError(
-                f"image: expected shape (h, w), (h, w, 3) or (h, w, 4) for {key!r}, got {array.shape}"
-            )
-    shapes = {array.shape for array in channels.values()}
-    if len(shapes) != 1:
-        raise ValueError(f"image: expected channels of one size, got {sorted(shapes)}")
-    return channels
-
-
-def _to_half(array: NDArray[Any]) -> NDArray[np.float16]:
-    """Round to half; what is finite stays finite."""
-    clipped = np.where(np.isfinite(array), np.clip(array, -_HALF_MAX, _HALF_MAX), array)
-    with np.errstate(over="ignore", under="ignore", invalid="ignore"):
-        return clipped.astype(np.float16)
-
-
-def write_exr(
-    path: str | os.PathLike[str],
-    image: NDArray[Any] | Mapping[str, NDArray[Any]],
-    metadata: Mapping[str, Any] | None = None,
-    half: bool = False,
-) -> None:
-    """Write an OpenEXR file: scan lines, ZIP.
-
-    Parameters
-    ----------
-    path : path
-        Replaced in one step when all is written.
-    image : array or mapping of names to arrays
-        (h, w), (h, w, 3) or (h, w, 4). An array alone, or under "RGB" or "RGBA", gives channels R, G, B, A; a
-        colour array under another name gives name.R, name.G, ...; a plain (h, w) array gives the channel of
-        that name.
-    metadata : mapping or None
-        Header attributes: text as it is, everything else as JSON text.
-    half : bool
-        Round to half floats, finite values clamped to their range. Otherwise float32; uint32 arrays stay.
-
-    Raises
-    ------
-    FileError
-        If it cannot be written; a file of that name is then as it was.
-    """
-    header: dict[str, Any] = {"compression": OpenEXR.ZIP_COMPRESSION, "type": OpenEXR.scanlineimage}
-    reserved = {
-        *header,
-        "channels",
-        "dataWindow",
-        "displayWindow",
-        "lineOrder",
-        "pixelAspectRatio",
-        "tiles",
-        "name",
-    }
-    for name, value in (metadata or {}).items():
-        if not name or name in reserved or name.startswith("screenWindow"):
-            raise ValueError(f"metadata: expected names that OpenEXR does not use itself, got {name!r}")
-        header[name] = value if isinstance(value, str) else json.dumps(value)
-    channels = {}
-    for name, array in _split_channels(image).items():
-        if half:
-            typed: NDArray[Any] = _to_half(array)
-        else:
-            typed = array if array.dtype == np.uint32 else array.astype(np.float32)
-        channels[name] = np.ascontiguousarray(typed)
-    with replacing(path) as temporary, OpenEXR.File(header, channels) as file:
-        try:
-            file.write(temporary)
-        except RuntimeError as error:  # the package wraps what the system said
-            raise file_error(path, f"cannot be written: {error}") from error
+    picture = read_exr_picture(open_source(path), part, layer)
+    return picture.pixels, picture.envmap

@@ -8,11 +8,13 @@ from pathlib import Path
 
 from burnish._core import FileError
 
-MAX_PIXELS = 1 << 26
-"""64 megapixels, as the reader of Radiance files has it."""
+MAX_PIXELS = 1 << 28
+"""256 megapixels, as the reader of Radiance files has it: lat-long maps up to 23168 x 11584, twice what shops
+call 16K.
+"""
 
-MAX_DECODED_BYTES = 1 << 30
-"""All channels and parts of a file together, decoded."""
+MAX_DECODED_BYTES = 1 << 33
+"""All channels of a part of a file together, decoded."""
 
 
 def file_error(path: str | os.PathLike[str], reason: str) -> FileError:

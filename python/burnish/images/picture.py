@@ -1,85 +1,46 @@
 """One door for every picture file: the first bytes decide, never the name."""
 
-import os
-import stat
 import warnings
-from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from PIL import Image
 
-from burnish._core import read_hdr
-from burnish.images import exr_header
-from burnish.images.display import srgb_decode
-from burnish.images.exr import read_exr
-from burnish.images.files import file_error, require_pixels
+from burnish.images import exr_header, png_chunks
+from burnish.images.display_referred import read_jpeg, read_png
+from burnish.images.exr import read_exr_picture
+from burnish.images.files import file_error
+from burnish.images.pixels import Picture
+from burnish.images.radiance import read_radiance
+from burnish.images.source import PictureFile, Source, open_source
 
-
-@dataclass
-class Picture:
-    """A picture and what its file says about it."""
-
-    pixels: NDArray[np.float32]
-    """(h, w, 3) or (h, w, 4), linear Rec. 709."""
-    format: str
-    """"OpenEXR", "Radiance", "PNG" or "JPEG"."""
-    envmap: int | None = None
-    """OpenEXR's attribute of that name: `exr_header.LATLONG`, `exr_header.CUBE` or None."""
-
-    @property
-    def is_high_dynamic_range(self) -> bool:
-        """Whether the format can hold radiance above 1."""
-        return self.format in ("OpenEXR", "Radiance")
+__all__ = ["Picture", "read_image", "read_picture"]
 
 
-# Deflate packs at most so many bytes into one.
-_DEFLATE_RATIO = 1032
+def _require_one_picture(format: str, part: str | int | None, layer: str | None) -> None:
+    for name, value in (("part", part), ("layer", layer)):
+        if value is not None:
+            raise ValueError(
+                f"{name}: expected None for a {format} file, which has one picture, got {value!r}"
+            )
 
 
-def _require_data(path: str | os.PathLike[str], file: Image.Image) -> None:
-    """Refuse a PNG that is too short for its size: Pillow would make a black picture of it, however large."""
-    least_bytes = file.height * (1 + file.width / 8)  # a bit a pixel, a filter a row
-    size = os.path.getsize(path)
-    if size * _DEFLATE_RATIO < least_bytes:
-        raise file_error(
-            path, f"PNG: expected data for {file.width} x {file.height} pixels, got {size} bytes"
-        )
-
-
-def _read_display_referred(path: str | os.PathLike[str], name: str) -> NDArray[np.float32]:
-    try:
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore")  # Pillow warns of sizes that are checked here, and of broken Exif
-            with Image.open(path, formats=[name]) as file:
-                require_pixels(path, name, file.height, file.width)
-                if name == "PNG":
-                    _require_data(path, file)
-                picture: Image.Image = file
-                largest = 65535 if picture.mode.startswith("I") else 255
-                if largest == 255:
-                    has_alpha = "A" in picture.getbands() or "transparency" in picture.info
-                    picture = picture.convert("RGBA" if has_alpha else "RGB")
-                encoded = np.asarray(picture)
-    except Exception as error:  # every Pillow plugin raises its own kinds
-        if isinstance(error, FileNotFoundError | PermissionError) or str(error).startswith(os.fspath(path)):
-            raise
-        raise file_error(path, f"{name} cannot be decoded, it is damaged or too large ({error})") from error
-    if encoded.ndim == 2:
-        encoded = np.repeat(encoded[..., None], 3, axis=2)
-    shares = np.arange(largest + 1, dtype=np.float32) / np.float32(largest)
-    pixels: NDArray[np.float32] = shares[encoded]
-    pixels[..., :3] = srgb_decode(shares)[encoded[..., :3]]
-    return pixels
-
-
-def read_picture(path: str | os.PathLike[str]) -> Picture:
+def read_picture(
+    path: PictureFile | Source, part: str | int | None = None, layer: str | None = None
+) -> Picture:
     """Read a picture together with what its file says about it.
+
+    ``help(burnish.images)`` has a table of the fields of each format, and what becomes of them.
 
     Parameters
     ----------
-    path : path
-        OpenEXR, Radiance, PNG or JPEG, by its first bytes.
+    path : path, bytes, or binary file object
+        OpenEXR, Radiance, PNG or JPEG, by its first bytes. An open file is read from where it stands to its
+        end.
+    part : str, int or None
+        Name, view or index of a part of an OpenEXR file. None: the first that is a picture.
+    layer : str or None
+        What stands before the last dot of an OpenEXR file's channels, empty for those without one. None: the
+        channels without a layer, or the only layer of colour.
 
     Returns
     -------
@@ -89,36 +50,39 @@ def read_picture(path: str | os.PathLike[str]) -> Picture:
     ------
     FileError
         If there is no such file, or it is none of these, damaged, or declares more than it can hold.
+    ValueError
+        If `path` is none of these, or there is no such part or layer.
     """
-    try:
-        if not stat.S_ISREG(os.stat(path).st_mode):
-            raise file_error(path, "expected a file, got something else")
-        with open(path, "rb") as stream:
-            start = stream.read(8)
-    except FileNotFoundError as error:
-        raise file_error(path, "expected a file, found none") from error
-    except PermissionError as error:
-        raise file_error(path, "expected a readable file, permission denied") from error
+    source = open_source(path)
+    start = source.head(8)
     if start.startswith(exr_header.MAGIC):
-        pixels, envmap = read_exr(path)
-        return Picture(pixels, "OpenEXR", envmap)
-    if start.startswith(b"#?"):
-        return Picture(read_hdr(os.fspath(path)), "Radiance")
-    if start.startswith(b"\x89PNG\r\n\x1a\n"):
-        return Picture(_read_display_referred(path, "PNG"), "PNG")
-    if start.startswith(b"\xff\xd8\xff"):
-        return Picture(_read_display_referred(path, "JPEG"), "JPEG")
+        return read_exr_picture(source, part, layer)
+    for magic, format, read in (
+        (b"#?", "Radiance", read_radiance),
+        (png_chunks.MAGIC, "PNG", read_png),
+        (b"\xff\xd8\xff", "JPEG", read_jpeg),
+    ):
+        if start.startswith(magic):
+            _require_one_picture(format, part, layer)
+            return read(source)
     shown = start.hex(" ") if start else "an empty file"
-    raise file_error(path, f"expected an OpenEXR, Radiance, PNG or JPEG picture, got {shown}")
+    raise file_error(source.name, f"expected an OpenEXR, Radiance, PNG or JPEG picture, got {shown}")
 
 
-def read_image(path: str | os.PathLike[str]) -> NDArray[np.float32]:
+def read_image(
+    path: PictureFile, part: str | int | None = None, layer: str | None = None
+) -> NDArray[np.float32]:
     """Read a picture as linear radiance.
 
     Parameters
     ----------
-    path : path
-        OpenEXR, Radiance, PNG or JPEG, by its first bytes; sRGB is decoded.
+    path : path, bytes, or binary file object
+        OpenEXR, Radiance, PNG or JPEG, by its first bytes. An open file is read from where it stands to its
+        end.
+    part : str, int or None
+        Name, view or index of a part of an OpenEXR file. None: the first that is a picture.
+    layer : str or None
+        Layer of an OpenEXR file, as `read_picture` takes it.
 
     Returns
     -------
@@ -129,5 +93,16 @@ def read_image(path: str | os.PathLike[str]) -> NDArray[np.float32]:
     ------
     FileError
         If there is no such file, or it is none of these, damaged, or declares more than it can hold.
+    ValueError
+        If `path` is none of these, or there is no such part or layer.
+
+    Warns
+    -----
+    UserWarning
+        For what the file says that would change the picture and is not used; `read_picture` lists it.
     """
-    return read_picture(path).pixels
+    source = open_source(path)
+    picture = read_picture(source, part, layer)
+    for sentence in picture.ignored:
+        warnings.warn(f"{source.name}: {sentence}", UserWarning, stacklevel=2)
+    return picture.pixels

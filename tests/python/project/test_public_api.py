@@ -101,7 +101,10 @@ def test_environments_are_made_as_documented(rng):
     env = burnish.Environment.from_faces(faces)
     np.testing.assert_array_equal(env.faces, faces)
     assert burnish.Environment.from_lat_long(np.ones((8, 16, 3), np.float32), face_size=4).face_size == 4
-    assert names(burnish.Environment.from_file)[0] == "path"
+    expected = ["path", "face_size", "exposure", "rotation", "part", "layer"]
+    assert names(burnish.Environment.from_file) == expected
+    for read in (burnish.images.read_image, burnish.images.read_picture, burnish.images.read_exr):
+        assert names(read) == ["path", "part", "layer"]
     assert defaults(burnish.Environment.pyramid)["filter"] == "gauss6"
 
 

@@ -2,12 +2,14 @@
 
 import json
 import os
+import struct
 
 import numpy as np
 import OpenEXR
 import pytest
 from PIL import Image
 
+import picture_support as made
 from burnish import FileError, images
 from burnish.images.exr_header import CUBE, LATLONG
 
@@ -100,7 +102,8 @@ def test_tiled_mip_mapped_exr_gives_level_0(shared_data):
 
 def test_missing_colours_are_zero_and_luminance_is_grey(tmp_path, picture):
     header = {"type": OpenEXR.scanlineimage}
-    red_only = images.read_image(write_raw(tmp_path / "r.exr", header, {"R": picture[..., 0].copy()}))
+    with pytest.warns(UserWarning, match=r"r\.exr: channels G, B are missing and read as 0"):
+        red_only = images.read_image(write_raw(tmp_path / "r.exr", header, {"R": picture[..., 0].copy()}))
     np.testing.assert_array_equal(red_only, np.stack([picture[..., 0], *2 * [0 * picture[..., 0]]], axis=2))
     grey = images.read_image(write_raw(tmp_path / "y.exr", header, {"Y": picture[..., 0].copy()}))
     np.testing.assert_array_equal(grey, np.repeat(picture[..., :1], 3, axis=2))
@@ -229,3 +232,38 @@ def test_grey_and_palette_pngs_become_rgb(tmp_path):
     np.testing.assert_allclose(images.read_image(tmp_path / "l.png"), np.full((2, 3, 3), 0.5029), atol=1e-3)
     assert images.read_image(tmp_path / "p.png").shape == (2, 3, 3)
     np.testing.assert_allclose(images.read_image(tmp_path / "i16.png"), np.ones((2, 3, 3)))
+
+
+@pytest.mark.parametrize("channels", [None, 2, 3, 4])
+@pytest.mark.parametrize("is_interlaced", [False, True])
+def test_pngs_of_16_bits_are_read_whole(rng, channels, is_interlaced):
+    shape = (9, 11) if channels is None else (9, 11, channels)
+    samples = rng.integers(0, 65536, shape, np.uint16)
+    read = images.read_image(made.png(samples, is_interlaced=is_interlaced))
+    planes = samples.reshape(9, 11, -1)
+    colors = planes[..., :3] if (channels or 1) > 2 else np.repeat(planes[..., :1], 3, axis=2)
+    # Single precision holds both the share and the power of it.
+    np.testing.assert_allclose(read[..., :3], images.srgb_decode(colors / 65535.0), rtol=1e-6)
+    assert read.shape[2] == (4 if channels in (2, 4) else 3)
+    if channels in (2, 4):
+        np.testing.assert_allclose(read[..., 3], planes[..., -1] / 65535.0, rtol=1e-7)
+
+
+def test_a_transparent_colour_of_16_bits_becomes_alpha():
+    samples = np.array([[[1, 2, 3], [257, 2, 3]]], np.uint16)
+    read = images.read_image(made.png(samples, (b"tRNS", struct.pack(">3H", 257, 2, 3))))
+    np.testing.assert_array_equal(read[..., 3], [[1, 0]])
+
+
+@pytest.mark.parametrize("dtype", [np.uint8, np.uint16])
+def test_a_damaged_png_is_refused(rng, dtype):
+    data = made.png(rng.integers(0, 255, (30, 40, 3), dtype))
+    wrong = bytearray(data)
+    wrong[len(data) // 2] ^= 1
+    with pytest.raises(FileError, match=r"PNG: chunk 'IDAT': expected the checksum 0x[0-9a-f]+, got another"):
+        images.read_image(bytes(wrong))
+    with pytest.raises(FileError, match=r"PNG: chunk 'IDAT': expected [0-9]+ bytes, got the end of the file"):
+        images.read_image(data[: len(data) // 2])
+    short = made.png(rng.integers(0, 255, (30, 40, 3), dtype), rows=29)
+    with pytest.raises(FileError, match=r"PNG: expected (3630|7230) bytes of samples, got (3509|6989)"):
+        images.read_image(short)
