@@ -89,8 +89,11 @@ def _add_scene_arguments(parser: argparse.ArgumentParser, has_sampler: bool = Tr
         "--env",
         metavar="FILE",
         default="studio",
-        help="environment: an .hdr or .exr file, or built-in: studio, sky, spots, uniform (default: studio)",
+        help="environment: a picture file, .hdr or .exr, or built-in: studio, sky, spots, uniform "
+        "(default: studio)",
     )
+    parser.add_argument("--env-part", metavar="NAME|INDEX", help="a part of an .exr file with several")
+    parser.add_argument("--env-layer", metavar="NAME", help="a layer of an .exr file: NAME.R, NAME.G, NAME.B")
     if has_sampler:
         parser.add_argument("--sampler", metavar="S", default=None, help=SAMPLER_HELP)
         parser.add_argument(

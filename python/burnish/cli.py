@@ -31,17 +31,25 @@ def load_scene(name: str) -> "Scene":
         return Scene.from_file(name)
 
 
-def load_environment(name: str, face_size: int | None, rotation_degrees: float) -> "Environment":
+def load_environment(
+    name: str,
+    face_size: int | None,
+    rotation_degrees: float,
+    part: str | None = None,
+    layer: str | None = None,
+) -> "Environment":
     """Load an environment file, or make the built-in environment of that name, turned about the y axis."""
     from burnish import Environment, builtin
 
     if name in builtin.ENVIRONMENTS:
+        if part is not None or layer is not None:
+            raise ValueError(f"--env-part, --env-layer: expected a file as --env beside them, got {name!r}")
         environment = builtin.make_environment(name, face_size or 256)
     elif Path(name).suffix == "" and not Path(name).exists():
         raise ValueError(f"--env: expected a file or one of {', '.join(builtin.ENVIRONMENTS)}, got {name!r}")
     else:
         with progress_bar(f"loading {Path(name).name}"):
-            environment = Environment.from_file(name, face_size=face_size)
+            environment = Environment.from_file(name, face_size=face_size, part=part, layer=layer)
     if rotation_degrees:
         environment.rotation = rotation_degrees
     return environment
@@ -64,7 +72,9 @@ def find_camera(scene: "Scene", key: str | None) -> "Camera | None":
 def prepare_scene(options: argparse.Namespace) -> "Scene":
     """Load the scene and the environment that the arguments name."""
     scene = load_scene(options.scene)
-    scene.environment = load_environment(options.env, options.face_size, options.rotate_env)
+    scene.environment = load_environment(
+        options.env, options.face_size, options.rotate_env, options.env_part, options.env_layer
+    )
     if options.no_background:
         scene.show_background = False
     return scene

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 import burnish
+import picture_support as made
 from burnish import cli
 from burnish._cli_arguments import make_parser, parse_sampler, parse_size
 
@@ -63,6 +64,10 @@ def test_other_samplers_are_refused(text):
             "--env: expected a file or one of studio, sky, spots, uniform",
         ),
         (["render", "sphere", "--env", "absent.hdr"], "absent.hdr"),
+        (
+            ["render", "sphere", "--env", "sky", "--env-layer", "key"],
+            "--env-part, --env-layer: expected a file as --env beside them, got 'sky'",
+        ),
         (["render", "sphere", "--sampler", "magic:3"], "--sampler: expected matched"),
         (
             ["render", "sphere", "--target-error", "0"],
@@ -109,6 +114,16 @@ def test_help_has_examples_that_parse(capsys, command):
 def test_version_is_printed():
     result = run("--version")
     assert (result.returncode, result.stdout.strip()) == (0, f"burnish {burnish.__version__}")
+
+
+def test_a_part_and_a_layer_of_an_environment_are_taken(tmp_path):
+    plane = np.ones((4, 8), np.float32)
+    layers = {f"{layer}.{color}": plane * (1 + i) for i, layer in enumerate("ab") for color in "RGB"}
+    path = tmp_path / "parts.exr"
+    path.write_bytes(made.exr_parts(({"name": "one"}, {"Y": plane}), ({"name": "two"}, layers)))
+    arguments = ["explain", "sphere", "--env", str(path), "--env-part", "two", "--env-layer", "b"]
+    options = make_parser().parse_args(arguments)
+    np.testing.assert_allclose(cli.prepare_scene(options).environment.faces, 2.0, rtol=1e-6)
 
 
 def test_cameras_are_found_by_name_and_index():
