@@ -14,7 +14,7 @@ from pathlib import Path
 from tqdm import tqdm
 
 REPOSITORY = Path(__file__).resolve().parents[1]
-sys.path.insert(0, str(REPOSITORY / "tests" / "python" / "fuzz"))
+sys.path[:0] = [str(REPOSITORY / "tests" / "python" / "fuzz"), str(REPOSITORY / "tests" / "python")]
 
 import hostile_points  # noqa: E402
 from file_seeds import write_seeds  # noqa: E402

@@ -12,6 +12,9 @@ import numpy as np
 import OpenEXR
 from PIL import Image
 
+import picture_support as made
+from picture_support import png_chunk
+
 SEED = 20140619
 
 
@@ -27,20 +30,11 @@ def encoded(mode: str, format: str, size: int = 4, **options) -> bytes:
     return stream.getvalue()
 
 
-def png_chunk(name: bytes, content: bytes) -> bytes:
-    """Give a chunk of a PNG file with its length and checksum."""
-    return struct.pack(">I", len(content)) + name + content + struct.pack(">I", zlib.crc32(name + content))
-
-
 def png(color_type: int, bits: int, interlaced: bool, size: int = 5) -> bytes:
     """Give a PNG of any colour type and depth, its rows filled with noise that is not filtered."""
     channels = {0: 1, 2: 3, 3: 1, 4: 2, 6: 4}[color_type]
     rng = np.random.default_rng(SEED)
-    passes = (
-        [(0, 0, 8, 8), (4, 0, 8, 8), (0, 4, 4, 8), (2, 0, 4, 4), (0, 2, 2, 4), (1, 0, 2, 2), (0, 1, 1, 2)]
-        if interlaced
-        else [(0, 0, 1, 1)]
-    )
+    passes = made.ADAM7 if interlaced else [(0, 0, 1, 1)]
     rows = b""
     for x, y, dx, dy in passes:
         columns = len(range(x, size, dx))
@@ -60,8 +54,19 @@ def png(color_type: int, bits: int, interlaced: bool, size: int = 5) -> bytes:
     )
 
 
+def _profile() -> bytes:
+    """An ICC profile of primaries that are not Rec. 709."""
+    return made.icc_profile([(0.5, 0.25, 0.0), (0.3, 0.68, 0.05), (0.164, 0.07, 0.775)], 1.8)
+
+
+def _exif() -> bytes:
+    fields = Image.Exif()
+    fields[0x0112] = 6
+    return fields.tobytes()
+
+
 def png_files() -> Iterator[bytes]:
-    """Every colour type and depth of PNG, plain and interlaced."""
+    """Every colour type and depth of PNG, plain and interlaced; every chunk that is looked at."""
     for color_type, depths in {
         0: (1, 2, 4, 8, 16),
         2: (8, 16),
@@ -72,17 +77,30 @@ def png_files() -> Iterator[bytes]:
         for bits in depths:
             yield png(color_type, bits, False)
             yield png(color_type, bits, True)
+    chunks = {
+        b"gAMA": struct.pack(">I", 100000),
+        b"cHRM": struct.pack(">8I", 31270, 32900, 70800, 29200, 17000, 79700, 13100, 4600),
+        b"iCCP": b"name\0\0" + zlib.compress(_profile()),
+        b"cICP": bytes([9, 13, 0, 1]),
+        b"pHYs": struct.pack(">IIB", 1, 2, 0),
+        b"eXIf": _exif()[6:],
+    }
+    for dtype in (np.uint8, np.uint16):
+        picture = _picture(dtype=dtype)
+        for chunk in chunks.items():
+            yield made.png(picture, chunk)
 
 
 def jpeg_files() -> Iterator[bytes]:
-    """Baseline and progressive JPEG in grey, colour and four channels, with and without restart marks."""
+    """Baseline and progressive JPEG in grey, colour and four channels, restart marks, a profile and Exif."""
     for mode in ("L", "RGB", "CMYK"):
         for options in ({}, {"progressive": True}, {"subsampling": 0}, {"restart_marker_blocks": 1}):
             yield encoded(mode, "JPEG", 17, **options)
+    yield encoded("RGB", "JPEG", 17, icc_profile=_profile(), exif=_exif())
 
 
 def hdr_files() -> Iterator[bytes]:
-    """Radiance pictures: flat, old and new runs, XYZE, every orientation, exposure."""
+    """Radiance pictures: flat, old and new runs, XYZE, every orientation, exposure, primaries, gamma."""
     rng = np.random.default_rng(SEED)
     pixels = rng.integers(2, 255, (2, 8, 4), np.uint8)
     new = b"".join(
@@ -95,6 +113,7 @@ def hdr_files() -> Iterator[bytes]:
         b"",
         b"FORMAT=32-bit_rle_rgbe\n",
         b"EXPOSURE=2\nCOLORCORR=1 2 3\nFORMAT=32-bit_rle_xyze\n",
+        b"PRIMARIES=.7 .29 .17 .79 .13 .05 .3127 .329\nGAMMA=2\nPIXASPECT=2\n",
     ):
         for body in (pixels.tobytes(), new, runs, old):
             yield head + variables + b"\n-Y 2 +X 8\n" + body
@@ -103,7 +122,7 @@ def hdr_files() -> Iterator[bytes]:
 
 
 def exr_files(folder: Path) -> Iterator[bytes]:
-    """OpenEXR: every compression, scan lines and tiles, half, float and uint, windows, layers, envmap."""
+    """OpenEXR: every compression, tiles, every sample type, windows, layers, envmap, colours, parts."""
     rng = np.random.default_rng(SEED)
     path = folder / "seed.exr"
 
@@ -132,6 +151,15 @@ def exr_files(folder: Path) -> Iterator[bytes]:
     yield written(plain | {"displayWindow": window}, {"RGB": half})
     yield written(plain | {"envmap": OpenEXR.ENVMAP_LATLONG}, {"RGB": half})
     yield written(plain | {"envmap": OpenEXR.ENVMAP_CUBE}, {"RGB": rng.random((12, 2, 3)).astype(np.float16)})
+    colors = (0.713, 0.293, 0.165, 0.83, 0.128, 0.044, 0.32168, 0.33767)
+    yield written(plain | {"chromaticities": colors, "whiteLuminance": 100.0}, {"RGB": half})
+    yield written(plain | {"colorInteropID": "lin_ap0_scene", "pixelAspectRatio": 2.0}, {"RGB": half})
+    yield written(plain, {name: half[..., i].copy() for i, name in enumerate("XYZ")})
+    planes = {name: half[..., i] for i, name in enumerate("RGB")}
+    views = b"".join(struct.pack("<i", len(view)) + view for view in (b"left", b"right"))
+    stereo = made.exr({**planes, **{f"right.{name}": plane for name, plane in planes.items()}}, plain)
+    yield made.with_attribute(stereo, "multiView", "stringvector", views)
+    yield made.exr_parts(({"name": "depth"}, {"Z": half[..., 0]}), ({"name": "rgb", "view": "left"}, planes))
 
 
 def _gltf_document(binary: bytes, is_embedded: bool) -> dict:

@@ -17,6 +17,7 @@ import pytest
 import burnish
 from burnish import FileError
 from burnish.images import read_image
+from picture_support import png_chunk
 
 ADDRESS_BYTES = 4 << 30
 CHANGES_PER_SEED = 20
@@ -156,7 +157,7 @@ def test_a_png_too_short_for_its_size_is_refused(tmp_path):
     """A hundred bytes that declare 49 million pixels took minutes and gigabytes to become black."""
     small = file_seeds.png(0, 1, False)
     header = struct.pack(">IIBBBBB", 5, 9_764_869, 1, 0, 0, 0, 0)
-    data = file_seeds.png_chunk(b"IHDR", header) + small[8 + 25 :]
+    data = png_chunk(b"IHDR", header) + small[8 + 25 :]
     path = tmp_path / "picture.png"
     path.write_bytes(small[:8] + data)
     with pytest.raises(FileError, match=r"PNG: expected data for 5 x 9764869 pixels, got \d+ bytes"):
