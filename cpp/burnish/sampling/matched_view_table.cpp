@@ -144,8 +144,8 @@ Row row_of(const MatchedLobe& lobe, uint32_t j) {
     const int columns = int(view_columns(lobe)), last = int(view_count(lobe)) / columns - 1;
     const int middle = columns / 2;
     // Of a round lobe the only column is the plane of view.
-    const glm::dvec2 node = columns == 1 ? glm::dvec2(j, 0.0)
-                                         : glm::dvec2(int(j) % columns - middle, int(j) / columns);
+    const glm::dvec2 node =
+        columns == 1 ? glm::dvec2(j, 0.0) : glm::dvec2(int(j) % columns - middle, int(j) / columns);
     const double radius = std::max(std::abs(node.x), node.y) / last;
     const double root = 0.5 * (std::sqrt(9.0 - 8.0 * radius * radius) - 1.0);
     return {lobe, std::max(root * root, LEAST_COS_O),

@@ -40,9 +40,9 @@ uint64_t view_table_entries(const MatchedLobe& lobe);
 /// Rows for all views. They are even in a radius r, r^2 = 1 - (cos_o + sqrt(cos_o))/2: 0 along the normal,
 /// around which it is as the angle, and 1 at the horizon, toward which it is as sqrt(cos_o). Row j of a round
 /// lobe is for r = j/(MATCHED_ROWS-1). Those of a brushed lobe are a grid, columns innermost, over
-/// x = -1..1 and y = 0..1 in steps of 1/(MATCHED_VIEW_NODES-1): (x, y) is for r = max(|x|, y) and the plane of
-/// view (x, y)/|(x, y)| in the lobe's axes. That is half of the disc of views on half of a square, which has
-/// no pole; a view from the other side has the same samples half a turn away.
+/// x = -1..1 and y = 0..1 in steps of 1/(MATCHED_VIEW_NODES-1): (x, y) is for r = max(|x|, y) and the plane
+/// of view (x, y)/|(x, y)| in the lobe's axes. That is half of the disc of views on half of a square, which
+/// has no pole; a view from the other side has the same samples half a turn away.
 ///
 /// An entry is (x, y, weight, level): the lookup goes to where the half-vector of slope (x, y) mirrors the
 /// view of a point, in the lobe's axes, or, of a round lobe, along the plane of view and across it; its

@@ -94,7 +94,7 @@ def nearest_aspect(rho: npt.ArrayLike) -> Array:
 
 
 def view_radius(cosine: npt.ArrayLike) -> Array:
-    """Give r, r^2 = 1 - (cos_o + sqrt(cos_o))/2: 0 along the normal, 1 at the horizon; rows are even in it."""
+    """Give r, r^2 = 1 - (cos_o + sqrt(cos_o))/2, 0 along the normal and 1 at the horizon: even rows."""
     cosine = np.clip(as_array(cosine), 0, 1)
     radius: Array = np.sqrt(1 - (cosine + np.sqrt(cosine)) / 2)
     return radius

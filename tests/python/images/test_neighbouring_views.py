@@ -24,8 +24,8 @@ MATERIALS = {
 
 
 def lines_of_pixels():
-    """Lines of places on a sphere's picture, in units of its radius, (n, 2) each: through the middle, close by
-    and farther out, in six directions.
+    """Lines of places on a sphere's picture, in units of its radius, (n, 2) each: through the middle, close
+    by and farther out, in six directions.
     """
     rim = np.sqrt(1 - 0.12**2)
     along = np.arange(-rim, rim, PIXEL)
@@ -33,7 +33,9 @@ def lines_of_pixels():
     for angle in np.radians([0, 17, 45, 90, 116, 153]):
         for shift in (0.0, PIXEL / 2, 3 * PIXEL, 0.08, 0.25, 0.6):
             x, y = along, np.full_like(along, shift)
-            turned = np.stack([x * np.cos(angle) - y * np.sin(angle), x * np.sin(angle) + y * np.cos(angle)], -1)
+            turned = np.stack(
+                [x * np.cos(angle) - y * np.sin(angle), x * np.sin(angle) + y * np.cos(angle)], -1
+            )
             lines.append(turned[np.hypot(x, y) < rim])
     return lines
 
