@@ -11,7 +11,7 @@ SAMPLERS = ("regular:14", "importance:14", "matched:14", "prefiltered", "referen
 
 
 def make_scene() -> burnish.Scene:
-    """Round, brushed and lacquered spheres under spots, which are small beside a pixel of their mirror images."""
+    """Round, brushed and lacquered spheres under spots."""
     materials = [
         burnish.Material(lobes=[burnish.KurtLobe(roughness=0.05)]),
         burnish.Material(lobes=[burnish.KurtLobe(roughness=(0.3, 0.1), rotation=0.4)]),

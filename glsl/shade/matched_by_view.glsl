@@ -12,33 +12,39 @@ struct TableView {
     int row;
 };
 
-TableView view_of_table(LobeView v, uint azimuths) {
+TableView view_of_table(LobeView v, uint columns) {
     vec3 plane = view_plane(v.local_o);
-    float root = sqrt(clamp(v.local_o.z, 0.0, 1.0));
+    // 0 along the normal, 1 at the horizon; rows are even in it.
+    float cos_o = clamp(v.local_o.z, 0.0, 1.0);
+    float radius = sqrt(max(1.0 - 0.5 * (cos_o + sqrt(cos_o)), 0.0));
     TableView view;
     view.axis1 = plane.x * v.frame[0] + plane.y * v.frame[1];
     view.axis2 = plane.x * v.frame[1] - plane.y * v.frame[0];
     view.o = vec2(plane.z, 0.0);
-    view.row = int(root * float(MATCHED_ROWS - 1u) + 0.5);
-    if (HAS_TANGENT && azimuths > 1u) {
+    view.row = int(radius * float(MATCHED_ROWS - 1u) + 0.5);
+    if (HAS_TANGENT && columns > 1u) {
         // A view from the other side is half a turn away.
-        float side = plane.y < 0.0 ? -1.0 : 1.0;
-        float azimuth = 0.5 - 0.5 * side * plane.x / (abs(plane.x) + abs(plane.y));
+        float side = v.local_o.y < 0.0 ? -1.0 : 1.0;
         view.axis1 = side * v.frame[0];
         view.axis2 = side * v.frame[1];
         view.o = side * v.local_o.xy;
-        view.row = int(root * float(MATCHED_BRUSHED_VIEWS - 1u) + 0.5) * int(MATCHED_AZIMUTHS) + int(azimuth * float(MATCHED_AZIMUTHS - 1u) + 0.5);
+        // The disc of views on a square: along a ray from the middle, the normal, to the edge, the horizon.
+        const float last = float(MATCHED_VIEW_NODES - 1u);
+        vec2 node = view.o * (last * radius / max(max(abs(view.o.x), view.o.y), 1e-20)) + vec2(last + 0.5, 0.5);
+        view.row = int(node.y) * int(columns) + int(node.x);
     }
     return view;
 }
 
-// The half-vector g = n + slope mirrors the view to 2 (o.g) g - |g|^2 o.
+// The half-vector g = n + slope mirrors the view to i = 2 (o.g) g - |g|^2 o. An entry's weight lacks the factor
+// (|g|^2 cos_i)^(1-alpha), which changes most from view to view: i has the cosine |g|^2 cos_i.
 Lookup place_by_view(LobeView v, TableView view, vec4 entry, float schlick) {
     Lookup lookup;
     vec3 g = v.frame[2] + entry.x * view.axis1 + entry.y * view.axis2;
-    float og = v.local_o.z + dot(entry.xy, view.o);
-    lookup.aim = aim_at_map(2.0 * og * g - (1.0 + dot(entry.xy, entry.xy)) * v.omega_o, v.layer, entry.w);
-    lookup.weight = entry.z;
+    float twice_og = 2.0 * (v.local_o.z + dot(entry.xy, view.o));
+    float length2 = 1.0 + dot(entry.xy, entry.xy);
+    lookup.aim = aim_at_map(twice_og * g - length2 * v.omega_o, v.layer, entry.w);
+    lookup.weight = entry.z * lit_power(twice_og - length2 * v.local_o.z, v.alpha);
     lookup.schlick = schlick;
     lookup.density = 0.0;
     return lookup;
@@ -51,10 +57,10 @@ Lookup place_by_view(LobeView v, TableView view, vec4 entry, float schlick) {
     PLACE_BY_VIEW(a, 0, l0) PLACE_BY_VIEW(b, 1, l1) PLACE_BY_VIEW(c, 2, l2) PLACE_BY_VIEW(d, 3, l3)                    \
     ADD(a, l0) ADD(b, l1) ADD(c, l2) ADD(d, l3)
 
-LobeSums gather_by_view(LobeView v, uint table_begin, uint azimuths) {
+LobeSums gather_by_view(LobeView v, uint table_begin, uint columns) {
     LobeSums sums = LobeSums(vec3(0.0), vec3(0.0), 0.0, 0.0, 0.0);
     const uint entries = SAMPLE_COUNT + (HAS_FRESNEL ? (SAMPLE_COUNT + 3u) / 4u : 0u);
-    TableView view = view_of_table(v, azimuths);
+    TableView view = view_of_table(v, columns);
     int row = int(table_begin) + int(entries) * view.row;
     vec4 schlick = vec4(0.0);
     Lookup l0, l1, l2, l3;

@@ -55,7 +55,7 @@ LobeRecord load_lobe(uint index) {
     row = ROW(lobe_rows, LOBE, 4);
     lobe.conserves_energy = row.x;
     lobe.variance_share = uintBitsToFloat(row.y);
-    lobe.view_azimuths = row.z;
+    lobe.view_columns = row.z;
     return lobe;
 }
 

@@ -28,9 +28,9 @@ SHARED_CONST float ALBEDO_LEAST_ROUGHNESS = 0.01f;
 SHARED_CONST uint MATCHED_NODES = 40u;
 SHARED_CONST uint MATCHED_ROWS = 1024u;
 SHARED_CONST float MATCHED_LOG2_LARGEST_RHO = 5.0874628f;
-// Tables of placed samples hold MATCHED_ROWS views of a round lobe, or so many of a brushed one, up to an aspect.
-SHARED_CONST uint MATCHED_BRUSHED_VIEWS = 128u;
-SHARED_CONST uint MATCHED_AZIMUTHS = 257u; // over half a turn, both ends
+// Tables of placed samples hold MATCHED_ROWS views of a round lobe; of a brushed one, up to an aspect, a grid of views with so many
+// nodes from the normal to the horizon.
+SHARED_CONST uint MATCHED_VIEW_NODES = 128u;
 SHARED_CONST float MATCHED_MOST_VIEW_ASPECT = 8.0f;
 // Of the linear map's variance, what a component of a mixture has.
 SHARED_CONST float MATCHED_VARIANCE_SHARE = 0.95f;

@@ -26,7 +26,7 @@ struct LobeRecord {
     float threshold_log;   // -ln xi0, for scaled tables of the regular pattern
     uint conserves_energy; // 1: divided by its albedo where that exceeds 1
     float variance_share;  // of matched lookups: what a variance of 1 is of level 1's, face_texels / (16 SPHERICAL_VARIANCE)
-    uint view_azimuths;    // of a table by view: 1 = isotropic
+    uint view_columns;     // of a table by view: 1 = isotropic
     uint pad0;
 };
 SHARED_SIZE(LobeRecord, 16 * LOBE_ROWS)

@@ -42,31 +42,35 @@ TEST(MatchedViewTable, AViewAlongTheNormalReflectsAroundIt) {
     ASSERT_EQ(table.size(), size_t(shared::MATCHED_ROWS) * entries);
     glm::vec2 mean(0.0f);
     float weights = 0.0f;
-    const glm::vec4* last = &table[(shared::MATCHED_ROWS - 1) * entries];
     for (uint32_t k = 0; k < 8; ++k) {
-        mean += last[k].z * glm::vec2(last[k]);
-        weights += last[k].z;
-        EXPECT_GT(last[k].z, 0.0f);
-        EXPECT_GE(last[k].w, 0.0f);
+        mean += table[k].z * glm::vec2(table[k]);
+        weights += table[k].z;
+        EXPECT_GT(table[k].z, 0.0f);
+        EXPECT_GE(table[k].w, 0.0f);
     }
     EXPECT_NEAR(glm::length(mean), 0.0f, 1e-4f * weights);
+}
+
+/// First entry of a row of a brushed lobe's table.
+const glm::vec4* row_at(const std::vector<glm::vec4>& table, const MatchedLobe& lobe, int x, int y) {
+    const int last = int(shared::MATCHED_VIEW_NODES) - 1;
+    return &table[size_t(y * int(view_columns(lobe)) + x + last) * view_row_entries(lobe)];
 }
 
 TEST(MatchedViewTable, ViewsFromBothSidesAlongAnAxisHaveTheSameSamples) {
     const MatchedLobe lobe{.samples = 7, .roughness_x = 0.2f, .roughness_y = 0.075f};
     const std::vector<glm::vec4> table = build_matched_view_table(lobe);
-    const uint32_t entries = view_row_entries(lobe), last = shared::MATCHED_AZIMUTHS - 1;
-    ASSERT_EQ(table.size(), size_t(shared::MATCHED_BRUSHED_VIEWS) * shared::MATCHED_AZIMUTHS * entries);
-    for (const uint32_t view : {20u, 60u, 127u}) {
-        const glm::vec4* first_row = &table[size_t(view) * shared::MATCHED_AZIMUTHS * entries];
-        const glm::vec4* last_row = first_row + size_t(last) * entries;
+    const size_t nodes = shared::MATCHED_VIEW_NODES;
+    ASSERT_EQ(table.size(), nodes * (2 * nodes - 1) * view_row_entries(lobe));
+    for (const int x : {1, 20, 60, 127}) {
+        const glm::vec4 *first_row = row_at(table, lobe, x, 0), *last_row = row_at(table, lobe, -x, 0);
         // The lobe's axes point the other way, and the two components of a pair have changed places.
         for (uint32_t k = 1; k < 7; k += 2)
             for (uint32_t j = 0; j < 2; ++j) {
                 const glm::vec4 one = first_row[k + j], other = last_row[k + 1 - j];
                 const bool is_same = glm::distance(one, last_row[k + j] * glm::vec4(-1, -1, 1, 1)) < 1e-5f;
                 EXPECT_TRUE(is_same || glm::distance(one, other * glm::vec4(-1, -1, 1, 1)) < 1e-5f)
-                    << "view " << view << ", sample " << k + j;
+                    << "view " << x << ", sample " << k + j;
             }
     }
 }
@@ -77,17 +81,34 @@ TEST(MatchedViewTable, ABarelyBrushedLobeHasTheRoundOnesWeights) {
     brushed.roughness_x = 0.3001f;
     const std::vector<glm::vec4> one = build_matched_view_table(round),
                                  other = build_matched_view_table(brushed);
-    const uint32_t view = 102; // cos_o = (102/127)^2, between rows of the round lobe's
-    const double root = double(view) / (shared::MATCHED_BRUSHED_VIEWS - 1);
-    const uint32_t row = uint32_t(root * (shared::MATCHED_ROWS - 1) + 0.5);
-    for (const uint32_t azimuth : {0u, 50u, 128u})
+    const double radius = 67.0 / (shared::MATCHED_VIEW_NODES - 1); // between two rows of the round lobe
+    const uint32_t row = uint32_t(radius * (shared::MATCHED_ROWS - 1) + 0.5);
+    for (const glm::ivec2 node : {glm::ivec2(67, 0), {67, 33}, {20, 67}, {0, 67}})
         for (uint32_t k = 0; k < 5; ++k) {
             const glm::vec4 expected = one[row * 5 + k];
-            const glm::vec4 actual = other[(view * shared::MATCHED_AZIMUTHS + azimuth) * 5 + k];
+            const glm::vec4 actual = row_at(other, brushed, node.x, node.y)[k];
             EXPECT_NEAR(actual.z, expected.z, 5e-3f * expected.z)
-                << "azimuth " << azimuth << ", sample " << k;
+                << "node " << node.x << ", " << node.y << ", sample " << k;
             EXPECT_NEAR(actual.w, expected.w, 2e-2f);
             EXPECT_NEAR(glm::length(glm::vec2(actual)), glm::length(glm::vec2(expected)), 2e-3f);
+        }
+}
+
+TEST(MatchedViewTable, RowsAroundTheNormalDifferLittle) {
+    const MatchedLobe lobe{.samples = 14, .roughness_x = 0.99f, .roughness_y = 0.124f};
+    const std::vector<glm::vec4> table = build_matched_view_table(lobe);
+    const auto change = [&](int x, int y, int dx, int dy) {
+        const glm::vec4 *one = row_at(table, lobe, x, y), *other = row_at(table, lobe, x + dx, y + dy);
+        float largest = 0.0f;
+        for (uint32_t k = 0; k < lobe.samples; ++k)
+            if (one[k].z > 0.0f && other[k].z > 0.0f) // one below the horizon has no place
+                largest = std::max(largest, glm::length(glm::vec2(one[k] - other[k])));
+        return largest;
+    };
+    for (int y = 0; y < 20; ++y)
+        for (int x = -20; x < 20; ++x) {
+            EXPECT_LT(change(x, y, 1, 0), 0.1f) << x << ", " << y;
+            EXPECT_LT(change(x, y, 0, 1), 0.1f) << x << ", " << y;
         }
 }
 

@@ -173,8 +173,7 @@ std::optional<Frame> Renderer::draw_once(const Scene& scene, const Camera& camer
 
     const std::vector<glm::vec2> offsets = filter_offsets(spp);
     for (uint32_t picture = 0; picture < spp; ++picture) {
-        shared::ViewRecord view =
-            make_view(camera, settings.width, settings.height, offsets[picture]);
+        shared::ViewRecord view = make_view(camera, settings.width, settings.height, offsets[picture]);
         view.background_map = 0;
         keep_clip_in_range(view, surface.clip_reach(view.clip_from_world));
         vulkan::upload(targets.view, std::span<const shared::ViewRecord>(&view, 1));

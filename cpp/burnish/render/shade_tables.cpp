@@ -76,7 +76,7 @@ public:
         return *mixtures_begin_;
     }
 
-    /// First entry of the lookups of one lobe by view, and its azimuths.
+    /// First entry of the lookups of one lobe by view, and its columns.
     Range view_table(uint32_t count, const KurtLobe& lobe, bool has_schlick, uint32_t face_size) {
         MatchedLobe key{count, lobe.roughness.x, lobe.roughness.y, lobe.alpha, 1.0f,
                         0.0f,  has_schlick,      face_size};
@@ -89,7 +89,7 @@ public:
         auto found = view_begins_.find(key);
         if (found == view_begins_.end())
             found = view_begins_.emplace(key, append(cache_.view_table(key))).first;
-        return {found->second, view_azimuths(key)};
+        return {found->second, view_columns(key)};
     }
 
     /// First entry and azimuth nodes of the albedo table of a lobe.
@@ -221,7 +221,7 @@ ShadeTables make_shade_tables(const vulkan::DevicePointer& device, const Scene& 
                     const auto views =
                         writer.view_table(matched->samples, lobe, traits.has_fresnel, face_size);
                     record.table_begin = views.begin;
-                    record.view_azimuths = views.count;
+                    record.view_columns = views.count;
                 } else {
                     record.table_begin = writer.mixtures(matched->samples);
                 }

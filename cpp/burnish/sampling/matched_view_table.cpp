@@ -12,6 +12,7 @@ namespace burnish {
 namespace {
 
 constexpr double LEAST_COS_O = 1e-4;
+constexpr double LEAST_LIT = 1e-8;  ///< trace of a cosine that kernels leave below the horizon
 constexpr double LEAST_GAIN = 1e-9; ///< a component that reflects less lies below the horizon
 
 /// Where components of one view lie. A slope y1 axis1 + y2 axis2 (y in units of the lobe's principal axes on
@@ -89,8 +90,11 @@ public:
         const double length = glm::length(mean.direction);
         const double variance = std::min(variance_of(slope, mixture.z), 1.0);
         const glm::dvec3 half_vector = mean.direction / length + omega_o_;
-        return {glm::vec4(half_vector.x / half_vector.z, half_vector.y / half_vector.z, mixture.w * mean.base,
-                          spherical_level(variance * shift_, lobe_.face_size)),
+        const glm::dvec2 h = glm::dvec2(half_vector) / half_vector.z;
+        // The cosine that the kernel puts back in.
+        const double lit = (1.0 + glm::dot(h, h)) * mean.direction.z / length;
+        const double weight = mixture.w * mean.base / std::pow(std::max(lit, LEAST_LIT), 1.0 - lobe_.alpha);
+        return {glm::vec4(h, weight, spherical_level(variance * shift_, lobe_.face_size)),
                 float(mean.schlick / mean.base)};
     }
 
@@ -135,11 +139,17 @@ private:
     glm::dvec2 steepest_; ///< slope of one deviation of s = 1 along which cos_i changes most
 };
 
-/// The plane of view of an azimuth node.
-glm::dvec2 plane_of(uint32_t node, uint32_t nodes) {
-    if (nodes == 1) return {1.0, 0.0};
-    const double x = 1.0 - 2.0 * double(node) / (nodes - 1);
-    return glm::normalize(glm::dvec2(x, 1.0 - std::abs(x)));
+/// The row of view j, see build_matched_view_table.
+Row row_of(const MatchedLobe& lobe, uint32_t j) {
+    const int columns = int(view_columns(lobe)), last = int(view_count(lobe)) / columns - 1;
+    const int middle = columns / 2;
+    // Of a round lobe the only column is the plane of view.
+    const glm::dvec2 node =
+        columns == 1 ? glm::dvec2(j, 0.0) : glm::dvec2(int(j) % columns - middle, int(j) / columns);
+    const double radius = std::max(std::abs(node.x), node.y) / last;
+    const double root = 0.5 * (std::sqrt(9.0 - 8.0 * radius * radius) - 1.0);
+    return {lobe, std::max(root * root, LEAST_COS_O),
+            radius > 0.0 ? glm::normalize(node) : glm::dvec2(1.0, 0.0)};
 }
 
 } // namespace
@@ -149,12 +159,13 @@ bool fits_view_table(glm::vec2 roughness) {
            shared::MATCHED_MOST_VIEW_ASPECT * std::min(roughness.x, roughness.y);
 }
 
-uint32_t view_azimuths(const MatchedLobe& lobe) {
-    return lobe.roughness_x == lobe.roughness_y ? 1 : shared::MATCHED_AZIMUTHS;
+uint32_t view_columns(const MatchedLobe& lobe) {
+    return lobe.roughness_x == lobe.roughness_y ? 1 : 2 * shared::MATCHED_VIEW_NODES - 1;
 }
 
 uint32_t view_count(const MatchedLobe& lobe) {
-    return view_azimuths(lobe) == 1 ? shared::MATCHED_ROWS : shared::MATCHED_BRUSHED_VIEWS;
+    const uint32_t columns = view_columns(lobe);
+    return columns == 1 ? shared::MATCHED_ROWS : shared::MATCHED_VIEW_NODES * columns;
 }
 
 uint32_t view_row_entries(const MatchedLobe& lobe) {
@@ -162,17 +173,16 @@ uint32_t view_row_entries(const MatchedLobe& lobe) {
 }
 
 uint64_t view_table_entries(const MatchedLobe& lobe) {
-    return uint64_t(view_count(lobe)) * view_azimuths(lobe) * view_row_entries(lobe);
+    return uint64_t(view_count(lobe)) * view_row_entries(lobe);
 }
 
 std::vector<glm::vec4> build_matched_view_table(const MatchedLobe& lobe) {
     const std::vector<glm::vec4> mixtures = matched_mixtures(lobe.samples);
     const uint32_t half = (lobe.samples + 1) / 2, entries = view_row_entries(lobe);
-    const uint32_t azimuths = view_azimuths(lobe), views = view_count(lobe);
+    const uint32_t columns = view_columns(lobe), lines = view_count(lobe) / columns;
     std::vector<glm::vec4> table(view_table_entries(lobe), glm::vec4(0.0f));
     const auto place = [&](uint32_t j) {
-        const double root = double(j / azimuths) / (views - 1);
-        const Row row(lobe, std::max(root * root, LEAST_COS_O), plane_of(j % azimuths, azimuths));
+        const Row row = row_of(lobe, j);
         const glm::vec4* mixture = &mixtures[size_t(matched_row(row.rho())) * half];
         glm::vec4* const out = &table[size_t(j) * entries];
         for (uint32_t k = 0; k < lobe.samples; ++k) {
@@ -184,9 +194,9 @@ std::vector<glm::vec4> build_matched_view_table(const MatchedLobe& lobe) {
             if (lobe.has_schlick) out[lobe.samples + k / 4][int(k % 4)] = schlick;
         }
     };
-    for_each_on_cores(views, azimuths > 1, [&](size_t view) {
-        for (uint32_t azimuth = 0; azimuth < azimuths; ++azimuth)
-            place(uint32_t(view) * azimuths + azimuth);
+    for_each_on_cores(lines, columns > 1, [&](size_t line) {
+        for (uint32_t column = 0; column < columns; ++column)
+            place(uint32_t(line) * columns + column);
     });
     return table;
 }

@@ -27,23 +27,28 @@ struct MatchedLobe {
 /// by from one azimuth to the next.
 bool fits_view_table(glm::vec2 roughness);
 
-/// Views that rows are made for: MATCHED_ROWS angles of a round lobe, MATCHED_BRUSHED_VIEWS times
-/// MATCHED_AZIMUTHS azimuths of a brushed one.
+/// Views that rows are made for: MATCHED_ROWS angles of a round lobe, a grid of MATCHED_VIEW_NODES lines of
+/// twice as many less one columns of a brushed one.
 uint32_t view_count(const MatchedLobe& lobe);
-uint32_t view_azimuths(const MatchedLobe& lobe);
+uint32_t view_columns(const MatchedLobe& lobe); ///< 1 of a round lobe
 
 /// Entries of a row: one for each sample, then the Schlick terms of four samples each, if there are any.
 uint32_t view_row_entries(const MatchedLobe& lobe);
 
 uint64_t view_table_entries(const MatchedLobe& lobe);
 
-/// Rows for views times azimuths, azimuths innermost: row j of the views is for cos_o = (j/(views-1))^2.
-/// Azimuth k of a brushed lobe is where the plane of view, e with ey >= 0 in the lobe's axes, has (1 -
-/// ex/(|ex| + ey))/2 = k/(MATCHED_AZIMUTHS-1); a view from the other side has the same samples half a turn
-/// away. An entry is (x, y, weight, level): the lookup goes to where the half-vector of slope (x, y) mirrors
-/// the view of a point, in the lobe's axes, or, of a round lobe, along the plane of view and across it.
-/// Slopes vary less from view to view than directions do, so that the nearest row will do. A Schlick term is
-/// the mean of (1 - o.h)^5 over a component.
+/// Rows for all views. They are even in a radius r, r^2 = 1 - (cos_o + sqrt(cos_o))/2: 0 along the normal,
+/// around which it is as the angle, and 1 at the horizon, toward which it is as sqrt(cos_o). Row j of a round
+/// lobe is for r = j/(MATCHED_ROWS-1). Those of a brushed lobe are a grid, columns innermost, over
+/// x = -1..1 and y = 0..1 in steps of 1/(MATCHED_VIEW_NODES-1): (x, y) is for r = max(|x|, y) and the plane
+/// of view (x, y)/|(x, y)| in the lobe's axes. That is half of the disc of views on half of a square, which
+/// has no pole; a view from the other side has the same samples half a turn away.
+///
+/// An entry is (x, y, weight, level): the lookup goes to where the half-vector of slope (x, y) mirrors the
+/// view of a point, in the lobe's axes, or, of a round lobe, along the plane of view and across it; its
+/// weight is still to be multiplied by ((1 + x^2 + y^2) cos_i)^(1-alpha). Slopes and what is left of weights
+/// vary less from view to view than directions and weights do, so that the nearest row will do. A Schlick
+/// term is the mean of (1 - o.h)^5 over a component.
 std::vector<glm::vec4> build_matched_view_table(const MatchedLobe& lobe);
 
 } // namespace burnish

@@ -66,9 +66,7 @@ def draw_truth(
     is_rim = view_cosines(fine.normal, camera or scene.default_camera()) < largest_cosine
     other = None if is_exact else coarse.color
     color = extrapolate(fine.color, other, dense.color, is_rim)
-    return Frame(
-        color, fine.alpha, lambda: fine.depth, lambda: fine.normal, fine.report, camera=fine.camera
-    )
+    return Frame(color, fine.alpha, lambda: fine.depth, lambda: fine.normal, fine.report, camera=fine.camera)
 
 
 def view_cosines(normal: FloatArray, camera: _core.Camera) -> NDArray[np.float64]:

@@ -6,7 +6,7 @@ looks at a part of it is the window's share there.
 
 import numpy as np
 
-from .arrays import Array
+from .arrays import Array, IntArray
 
 RADIUS_PX = 1.5
 _WINDOW = (0.35875, 0.48829, 0.14128, 0.01168)
@@ -22,7 +22,7 @@ def window_cumulative(x: Array) -> Array:
     return share
 
 
-def shortest_squares(modulus: int) -> Array:
+def shortest_squares(modulus: int) -> IntArray:
     """Square of the shortest vector of the lattice of all (k, a k + j modulus), for a = 1..modulus/2.
 
     0 where a has a common divisor with the modulus. No shortest vector is longer than that of the hexagonal
@@ -33,7 +33,7 @@ def shortest_squares(modulus: int) -> Array:
     for k in range(1, int(np.sqrt(2 / np.sqrt(3) * modulus)) + 2):
         rest = a * k % modulus
         least = np.minimum(least, k**2 + np.minimum(rest, modulus - rest) ** 2)
-    return np.where(np.gcd(a, modulus) == 1, least, 0)
+    return np.asarray(np.where(np.gcd(a, modulus) == 1, least, 0), np.int64)
 
 
 def lattice(count: int) -> Array:
@@ -44,16 +44,18 @@ def lattice(count: int) -> Array:
     against its modulus, with the smallest multiplier.
     """
     whole, opened = shortest_squares(count), shortest_squares(count + 1)
+    points: Array
+    row: Array
     if opened.max() * count >= whole.max() * (count + 1):
         column = np.arange(1, count + 1)
-        row = column * (np.argmax(opened) + 1) % (count + 1)
+        row = np.asarray(column * (np.argmax(opened) + 1) % (count + 1), np.float64)
         points = np.stack([column, row], axis=-1) / count - (count + 1) / (2 * count)
     else:
         middle = np.arange(count) - (count - 1) / 2
         # Rows half-way between integers, as the columns are.
         row = middle * (np.argmax(whole) + 1) / count
         points = np.stack([middle / count, row - np.floor(row + 0.5)], axis=-1)
-    return np.asarray(points)
+    return points
 
 
 def filter_offsets(count: int) -> Array:
@@ -64,7 +66,7 @@ def filter_offsets(count: int) -> Array:
         middle = (low + high) / 2
         is_left = window_cumulative(middle) < points + 0.5
         low, high = np.where(is_left, middle, low), np.where(is_left, high, middle)
-    offsets = (low + high) / 2
+    offsets: Array = (low + high) / 2
     nearest = int(np.argmin(np.round(np.sum(offsets**2, axis=-1), 9)))
     offsets[[0, nearest]] = offsets[[nearest, 0]]
     return offsets

@@ -29,6 +29,9 @@ from .sun_split import Sun, shade_suns, split_suns
 #: Variance per axis of a lookup at level l of the spherical pyramid, in 4^l (2/N)^2 steradian: .75 of the
 #: level and what bilinear interpolation adds, 1/6 on a face and about .1 on the sphere.
 SPHERICAL_VARIANCE = 0.85
+# Of a cosine, below the horizon: where no sample of a table's row is lit at the point's own view, some are
+# read all the same.
+_LEAST_LIT = 1e-8
 
 
 @dataclass(frozen=True)
@@ -93,8 +96,9 @@ def matched_lookups(
     """Place the mixture of one count at surface points (maths.md, section 6).
 
     The spherical pyramid is the same everywhere: nothing but the directions' rotation depends on the frame.
-    Samples depend on the lobe and the view in its frame: half-vectors, weights and levels are those of the
-    nearest view of a table, unless the lobe's aspect exceeds MOST_VIEW_ASPECT.
+    Samples depend on the lobe and the view in its frame: half-vectors and levels are those of the nearest
+    view of a table, and so are weights but for their factor cos_i^(1-alpha), unless the lobe's aspect exceeds
+    MOST_VIEW_ASPECT.
     """
     mx, my = slopes(lobe)
     view = frame.omega_o
@@ -103,13 +107,15 @@ def matched_lookups(
         means, rho = place_means(near, lobe, samples, rows)
         h = normalize(near[..., None, :] + means.direction)
         direction = 2 * dot(view[..., None, :], h)[..., None] * h - view[..., None, :]
+        lit, near_lit = (np.maximum(i[..., 2], _LEAST_LIT) for i in (direction, means.direction))
+        weight = means.gains * ((lit / near_lit) ** (1 - lobe.alpha))[..., None]
     else:
         means, rho = place_means(view, lobe, samples, rows)
-        direction = means.direction
+        direction, weight = means.direction, means.gains
     shift = level_shift(rho, samples, max(mx, my))[..., None]
     level = spherical_level(4**shift * means.variance, face_texels)
     last = 0.5 * np.log2(face_texels)
-    return Lookups(frame.to_world(direction), np.clip(level, 0, last), means.gains)
+    return Lookups(frame.to_world(direction), np.clip(level, 0, last), weight)
 
 
 @dataclass(frozen=True)

@@ -76,12 +76,11 @@ def mixture_at(rows: Array, samples: int, rho: npt.ArrayLike) -> Mixture:
     return Mixture(both[..., 0], both[..., 1], both[..., 2], w)
 
 
-#: Rows that the engine reads, the nearest one: of aspects, evenly in their log; of views, at
-#: cos_o = (j/1023)^2.
+#: Rows that the engine reads, the nearest one: of aspects, evenly in their log; of views, evenly in their
+#: radius.
 TABLE_ROWS = 1024
-#: Views of brushed lobes, at cos_o = (j/127)^2, and azimuths over half a turn, evenly around a diamond.
-BRUSHED_VIEWS = 128
-AZIMUTHS = 257
+#: Views of brushed lobes from the normal to the horizon; they are a grid over a square.
+VIEW_NODES = 128
 #: Larger aspects are placed at the view itself.
 MOST_VIEW_ASPECT = 8.0
 
@@ -94,23 +93,39 @@ def nearest_aspect(rho: npt.ArrayLike) -> Array:
     return aspect
 
 
+def view_radius(cosine: npt.ArrayLike) -> Array:
+    """Give r, r^2 = 1 - (cos_o + sqrt(cos_o))/2, 0 along the normal and 1 at the horizon: even rows."""
+    cosine = np.clip(as_array(cosine), 0, 1)
+    radius: Array = np.sqrt(1 - (cosine + np.sqrt(cosine)) / 2)
+    return radius
+
+
+def radius_cosine(radius: npt.ArrayLike) -> Array:
+    """Invert `view_radius`; at least 1e-4, and below 1: a trace of a sine keeps the azimuth."""
+    root = (np.sqrt(9 - 8 * as_array(radius) ** 2) - 1) / 2
+    cosine: Array = np.clip(root**2, 1e-4, 1 - 1e-12)
+    return cosine
+
+
 def nearest_view(omega_o: npt.ArrayLike, *, is_round: bool) -> Array:
     """Local view of the nearest row of a table by view, its cosine at least 1e-4; (..., 3).
 
-    Round lobes have rows for cosines alone: the azimuth stays.
+    Round lobes have rows for radii alone: the azimuth stays. Views of brushed ones lie on a square, at
+    (o_x, o_y) r/max(|o_x|, |o_y|), and half of a grid over it has rows: a view from the other side has those
+    of the opposite view, half a turn away.
     """
     omega_o = as_array(omega_o)
-    last = (TABLE_ROWS if is_round else BRUSHED_VIEWS) - 1
-    row = np.floor(np.sqrt(np.clip(omega_o[..., 2], 0, 1)) * last + 0.5)
-    cosine = np.clip((row / last) ** 2, 1e-4, 1 - 1e-12)  # a trace of a sine keeps the azimuth
-    sine = np.hypot(omega_o[..., 0], omega_o[..., 1])
+    radius, plane = view_radius(omega_o[..., 2]), omega_o[..., :2]
+    if is_round:
+        radius = np.floor(radius * (TABLE_ROWS - 1) + 0.5) / (TABLE_ROWS - 1)
+    else:
+        side = np.where(plane[..., 1:] < 0, -1.0, 1.0)
+        largest = np.max(np.abs(plane), axis=-1, keepdims=True)
+        square = side * plane * radius[..., None] / np.where(largest > 0, largest, 1.0)
+        node = np.floor(square * (VIEW_NODES - 1) + 0.5) / (VIEW_NODES - 1)
+        radius, plane = np.max(np.abs(node), axis=-1), side * node
+    length = np.linalg.norm(plane, axis=-1, keepdims=True)
     # A view along the normal has no azimuth: the first axis serves.
-    x = np.where(sine > 0, omega_o[..., 0], 1.0)
-    y = np.where(sine > 0, omega_o[..., 1], 0.0)
-    if not is_round:
-        side = np.where(y < 0, -1.0, 1.0)
-        way = (1 - side * x / (np.abs(x) + np.abs(y))) / 2
-        corner = 1 - 2 * np.floor(way * (AZIMUTHS - 1) + 0.5) / (AZIMUTHS - 1)
-        x, y = side * corner, side * (1 - np.abs(corner))
-    scale = np.sqrt(1 - cosine**2) / np.hypot(x, y)
-    return np.stack([x * scale, y * scale, cosine], axis=-1)
+    plane = np.where(length > 0, plane, [1.0, 0.0]) / np.where(length > 0, length, 1.0)
+    cosine = radius_cosine(radius)[..., None]
+    return np.concatenate([plane * np.sqrt(1 - cosine**2), cosine], axis=-1)

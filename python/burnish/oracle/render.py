@@ -80,9 +80,7 @@ def render(
         )
         for offset in filter_offsets(spp)
     ]
-    color, alpha = (
-        np.mean([getattr(one, name) for one in pictures], axis=0) for name in ("color", "alpha")
-    )
+    color, alpha = (np.mean([getattr(one, name) for one in pictures], axis=0) for name in ("color", "alpha"))
     return Picture(color, alpha, pictures[0].depth, pictures[0].normal)
 
 

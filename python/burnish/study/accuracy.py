@@ -8,7 +8,7 @@ import numpy as np
 
 from burnish import _core
 from burnish.frame import FloatArray, Frame, require_comparable
-from burnish.rendering import Filter, require_filter
+from burnish.rendering import Filter, require_filter, require_size
 from burnish.study.identity import digest
 from burnish.study.measure import Cell
 from burnish.study.runner import open_journal, run_cells

@@ -69,6 +69,18 @@ def test_a_given_reference_is_used(scene, device):
     assert rows[0]["max_error"] == 0.0
 
 
+def test_a_given_frame_of_another_view_is_refused_and_of_another_spp_warned_of(scene, device):
+    other = burnish.Camera.look_at((0.5, 0.5, 5), (0, 0, 0))
+    moved = burnish.render(scene, other, SIZE, burnish.Prefiltered(), device)
+    with pytest.raises(ValueError, match=r"reference: expected a frame seen by Camera\(.*, got another view"):
+        measure(scene, device, reference=moved)
+    with pytest.raises(ValueError, match=r"reference: expected a frame of shape \(\d+, \d+\), got \(8, 8\)"):
+        measure(scene, device, reference=burnish.render(scene, size=(8, 8), device=device))
+    many = burnish.render(scene, size=SIZE, sampler=burnish.Prefiltered(), spp=2, device=device)
+    with pytest.warns(RuntimeWarning, match=r"reference: expected a frame of spp 1, got one of spp 2"):
+        measure(scene, device, samplers=["prefiltered"], reference=many, repeats=1)
+
+
 def test_the_reference_itself_can_be_judged(scene, device):
     (row,) = measure(scene, device, samplers=["reference:0.5"], repeats=1).rows
     assert row["method"] == "reference" and row["requested_samples"] is None

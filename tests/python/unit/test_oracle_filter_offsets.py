@@ -1,4 +1,4 @@
-"""Offsets of accumulated pictures: centred for every count, evenly spread over the filter, as the engine's."""
+"""Offsets of accumulated pictures: centred for every count, spread as the filter is, the engine's."""
 
 import numpy as np
 import pytest
@@ -10,7 +10,7 @@ COUNTS = [*range(1, 65), 100, 127, 128, 255, 256, 257, 1000, 1024, 4096]
 
 
 def star_discrepancy(points):
-    """Largest difference of share and area over boxes from the corner of the unit square, corners at points."""
+    """Largest difference of share and area over boxes from the unit square's corner, corners at points."""
     x, y = points.T
     edges_x, edges_y = np.append(np.sort(x), 1.0), np.append(np.sort(y), 1.0)
     area = edges_x[:, None] * edges_y[None, :]
