@@ -45,7 +45,9 @@ void validate(const KurtLobe& lobe, const std::string& prefix) {
 void validate(const Material& material) {
     require_unit("diffuse", material.diffuse);
     require_non_negative("emissive", material.emissive);
-    require_range("alpha_cutoff", material.alpha_cutoff, 0.0f, 1.0f);
+    if (!(material.alpha_cutoff >= 0.0f) || !std::isfinite(material.alpha_cutoff))
+        throw std::invalid_argument(
+            message("alpha_cutoff: expected a finite number >= 0, got ", material.alpha_cutoff));
     if (material.lobes.size() > MAX_LOBES)
         throw std::invalid_argument(
             message("lobes: expected at most ", MAX_LOBES, ", got ", material.lobes.size()));

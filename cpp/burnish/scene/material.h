@@ -71,7 +71,7 @@ struct Material {
     std::vector<KurtLobe> lobes;
     glm::vec3 emissive{0.0f}; ///< radiance, >= 0, KHR_materials_emissive_strength multiplied in
     AlphaMode alpha_mode = AlphaMode::opaque;
-    float alpha_cutoff = 0.5f;
+    float alpha_cutoff = 0.5f; ///< >= 0; above 1 nothing shows
     bool double_sided = false;
     /// Set for materials from glTF. `diffuse` and `lobes` hold its factors mapped by
     /// `map_metallic_roughness`; where a texture or vertex colour is in use the surface pass maps again at
