@@ -149,6 +149,7 @@ SHARED_CONST uint SPEC_VERTEX_COLOR = 1u;
 SHARED_CONST uint SPEC_ALPHA_MASK = 2u;
 SHARED_CONST uint SPEC_DOUBLE_SIDED = 3u;
 SHARED_CONST uint SPEC_SURFACE_TANGENT = 4u;
+SHARED_CONST uint SPEC_UNLIT = 5u; // KHR_materials_unlit: vertex colours multiply the emission
 
 SHARED_END
 

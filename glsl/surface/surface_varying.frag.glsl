@@ -10,6 +10,7 @@
 layout(constant_id = SPEC_TEXTURES) const uint TEXTURES = 0u;
 layout(constant_id = SPEC_VERTEX_COLOR) const bool HAS_VERTEX_COLOR = false;
 layout(constant_id = SPEC_ALPHA_MASK) const bool HAS_ALPHA_MASK = false;
+layout(constant_id = SPEC_UNLIT) const bool IS_UNLIT = false;
 layout(constant_id = SPEC_DOUBLE_SIDED) const bool IS_DOUBLE_SIDED = false;
 
 layout(push_constant) uniform Push { DrawRecord draw; };
@@ -90,6 +91,7 @@ void main() {
                                                    material.specular.a * specular, anisotropy);
     float occlusion = 1.0 + material.occlusion_strength * (read_texture(TEXTURE_OCCLUSION, vec4(1.0)).r - 1.0);
     vec3 emissive = material.emissive.rgb * read_texture(TEXTURE_EMISSIVE, vec4(1.0)).rgb;
+    if (IS_UNLIT && HAS_VERTEX_COLOR) emissive *= color.rgb;
     float coat = material.clearcoat * read_texture(TEXTURE_CLEARCOAT, vec4(1.0)).r;
     float coat_roughness = material.clearcoat_roughness * read_texture(TEXTURE_CLEARCOAT_ROUGHNESS, vec4(1.0)).g;
 

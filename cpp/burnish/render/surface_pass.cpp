@@ -205,6 +205,7 @@ const vulkan::GraphicsPipeline& SurfacePass::pipeline_for(Pipelines& pipelines, 
     if (is_varying)
         settings.constants.set(shared::SPEC_TEXTURES, texture_mask(material))
             .set(shared::SPEC_VERTEX_COLOR, material.source && material.source->has_vertex_color)
+            .set(shared::SPEC_UNLIT, material.source && material.source->is_unlit)
             .set(shared::SPEC_ALPHA_MASK, material.alpha_mode != AlphaMode::opaque);
     const std::string key =
         std::string(is_mirrored ? "mirrored " : "") + (has_texture_vertices ? "textured" : "");

@@ -261,10 +261,12 @@ void MaterialLoader::read_extensions(const tinygltf::Material& from, Material& m
     }
     if (find_extension(from.extensions, "KHR_materials_unlit")) {
         // The base colour shines and nothing reflects; its texture stays for the coverage in its alpha.
+        // Vertex colours multiply what shines (`is_unlit`).
         material.emissive = glm::vec3(source.base_color);
         MetallicRoughness dark;
         dark.base_color = glm::vec4(0.0f, 0.0f, 0.0f, source.base_color.w);
         dark.metallic = dark.specular = 0.0f;
+        dark.is_unlit = true;
         dark.base_color_texture = dark.emissive_texture = source.base_color_texture;
         source = dark;
     }

@@ -52,6 +52,7 @@ struct MetallicRoughness {
     float normal_scale = 1.0f;
     float occlusion_strength = 1.0f;
     bool has_vertex_color = false;
+    bool is_unlit = false; ///< KHR_materials_unlit: `emissive` is the base colour, nothing reflects
 
     TextureUse base_color_texture;          ///< sRGB
     TextureUse metallic_roughness_texture;  ///< linear, g = roughness, b = metallic
