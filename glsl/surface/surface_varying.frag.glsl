@@ -83,12 +83,12 @@ void main() {
     }
 
     vec4 metallic_roughness = read_texture(TEXTURE_METALLIC_ROUGHNESS, vec4(1.0));
-    float specular = read_texture(TEXTURE_SPECULAR, vec4(1.0)).a;
+    float specular = material.specular.a * read_texture(TEXTURE_SPECULAR, vec4(1.0)).a;
     vec3 specular_color = read_texture(TEXTURE_SPECULAR_COLOR, vec4(1.0)).rgb;
     MappedMaterial mapped = map_metallic_roughness(base.rgb, material.metallic * metallic_roughness.b,
                                                    material.roughness * metallic_roughness.g,
                                                    min(material.specular.rgb * specular_color, vec3(1.0)) * specular,
-                                                   material.specular.a * specular, anisotropy);
+                                                   specular, anisotropy);
     float occlusion = 1.0 + material.occlusion_strength * (read_texture(TEXTURE_OCCLUSION, vec4(1.0)).r - 1.0);
     vec3 emissive = material.emissive.rgb * read_texture(TEXTURE_EMISSIVE, vec4(1.0)).rgb;
     if (IS_UNLIT && HAS_VERTEX_COLOR) emissive *= color.rgb;
