@@ -40,9 +40,24 @@ struct TextureVertex {
 };
 static_assert(sizeof(TextureVertex) == GpuScene::TEXTURE_VERTEX_BYTES);
 
-Vertex pack_vertex(const Mesh& mesh, size_t k) {
+/// What positions are kept relative to: the middle of the mesh's box where that lies far from its origin, so
+/// that products with a matrix keep the digits that the mesh has.
+glm::dvec3 center_of(const Mesh& mesh) {
+    if (mesh.positions.empty()) return glm::dvec3(0.0);
+    glm::dvec3 low(mesh.positions[0]), high(mesh.positions[0]);
+    for (const glm::vec3& position : mesh.positions) {
+        low = glm::min(low, glm::dvec3(position));
+        high = glm::max(high, glm::dvec3(position));
+    }
+    constexpr double FAR_IN_SIZES = 4.0;
+    const glm::dvec3 center = 0.5 * (low + high), away = glm::abs(center);
+    const double size = glm::length(high - low);
+    return std::max({away.x, away.y, away.z}) > FAR_IN_SIZES * size ? center : glm::dvec3(0.0);
+}
+
+Vertex pack_vertex(const Mesh& mesh, size_t k, const glm::dvec3& center) {
     Vertex vertex{};
-    vertex.position = mesh.positions[k];
+    vertex.position = glm::vec3(glm::dvec3(mesh.positions[k]) - center);
     const glm::vec2 octahedral = octahedral_encode(mesh.normals[k]);
     vertex.normal_tangent[0] = int16_t(glm::packSnorm1x16(octahedral.x));
     vertex.normal_tangent[1] = int16_t(glm::packSnorm1x16(octahedral.y));
@@ -145,11 +160,12 @@ void GpuScene::upload_meshes(const vulkan::DevicePointer& device, const Scene& s
     for (const Mesh& mesh : scene.meshes)
         has_texture_vertices_ |= !mesh.uv0.empty() || !mesh.colors.empty();
     for (const Mesh& mesh : scene.meshes) {
-        meshes_.push_back(
-            {uint32_t(indices.size()), uint32_t(mesh.indices.size()), int32_t(vertices.size())});
+        meshes_.push_back({uint32_t(indices.size()), uint32_t(mesh.indices.size()), int32_t(vertices.size()),
+                           center_of(mesh)});
+        MeshRange& range = meshes_.back();
         for (size_t k = 0; k < mesh.positions.size(); ++k) {
-            vertices.push_back(pack_vertex(mesh, k));
-            meshes_.back().reach = glm::max(meshes_.back().reach, glm::abs(mesh.positions[k]));
+            vertices.push_back(pack_vertex(mesh, k, range.center));
+            range.reach = glm::max(range.reach, glm::abs(vertices.back().position));
             if (has_texture_vertices_) texture_vertices.push_back(pack_texture_vertex(mesh, k));
         }
         indices.insert(indices.end(), mesh.indices.begin(), mesh.indices.end());

@@ -18,7 +18,8 @@ struct MeshRange {
     uint32_t first_index = 0;
     uint32_t index_count = 0;
     int32_t vertex_offset = 0;
-    glm::vec3 reach{0.0f}; ///< largest absolute coordinates, object space
+    glm::dvec3 center{0.0}; ///< object space: what the buffer's positions are relative to
+    glm::vec3 reach{0.0f};  ///< largest absolute coordinates relative to it
 };
 
 /// One texture of one material, ready to be bound.

@@ -61,27 +61,25 @@ shared::SurfaceRecord surface_record(const Material& material, uint32_t texture_
     return record;
 }
 
-shared::DrawRecord draw_record(const Object& object, uint32_t instance) {
+shared::DrawRecord draw_record(const Object& object, const MeshRange& range, const glm::dvec3& eye,
+                               uint32_t instance) {
     shared::DrawRecord record{};
-    record.world_from_object = object.world_from_object;
+    const glm::dmat3 m(object.world_from_object);
+    // Relative to the eye before anything is rounded: float32 then has its digits where the picture has them.
+    const glm::dvec3 place = m * range.center + (glm::dvec3(object.world_from_object[3]) - eye);
+    record.world_from_object = glm::mat4(glm::mat3(m));
+    record.world_from_object[3] = glm::vec4(glm::vec3(place), 1.0f);
     // Cofactors instead of the inverse transpose: the same directions, and finite where an axis is scaled to
     // nothing.
-    const glm::mat3 m(object.world_from_object);
-    const float determinant = glm::dot(m[0], glm::cross(m[1], m[2]));
-    const float sign = determinant < 0.0f ? -1.0f : 1.0f;
-    record.normal_from_object_x = glm::vec4(sign * glm::cross(m[1], m[2]), sign);
-    record.normal_from_object_y = glm::vec4(sign * glm::cross(m[2], m[0]), 0.0f);
-    record.normal_from_object_z = glm::vec4(sign * glm::cross(m[0], m[1]), 0.0f);
+    const double sign = glm::determinant(m) < 0.0 ? -1.0 : 1.0;
+    glm::dmat3 cofactors(glm::cross(m[1], m[2]), glm::cross(m[2], m[0]), glm::cross(m[0], m[1]));
     // Their length goes with the square of the scale: bring tiny and huge scenes back to order one.
-    const float largest = std::max({glm::length(glm::vec3(record.normal_from_object_x)),
-                                    glm::length(glm::vec3(record.normal_from_object_y)),
-                                    glm::length(glm::vec3(record.normal_from_object_z))});
-    if (largest > 0.0f) {
-        const glm::vec4 scale(glm::vec3(1.0f / largest), 1.0f);
-        record.normal_from_object_x *= scale;
-        record.normal_from_object_y *= scale;
-        record.normal_from_object_z *= scale;
-    }
+    const double largest =
+        std::max({glm::length(cofactors[0]), glm::length(cofactors[1]), glm::length(cofactors[2])});
+    if (largest > 0.0) cofactors *= sign / largest;
+    record.normal_from_object_x = glm::vec4(glm::vec3(cofactors[0]), float(sign));
+    record.normal_from_object_y = glm::vec4(glm::vec3(cofactors[1]), 0.0f);
+    record.normal_from_object_z = glm::vec4(glm::vec3(cofactors[2]), 0.0f);
     record.material = instance;
     return record;
 }
@@ -142,7 +140,7 @@ FrameTargets::FrameTargets(const vulkan::DevicePointer& device, uint32_t width_p
 }
 
 SurfacePass::SurfacePass(Pipelines& pipelines, GpuScene& gpu_scene, const Scene& scene, const Plan& plan,
-                         const FrameTargets& targets)
+                         const glm::dvec3& eye, const FrameTargets& targets)
     : gpu_scene_(gpu_scene), has_varying_(plan.has_varying), has_tangent_(plan.has_tangent) {
     for (const MaterialInstance& instance : plan.instances)
         has_tangent_ |= has_texture(scene.materials[instance.material], &MetallicRoughness::normal_texture);
@@ -151,16 +149,15 @@ SurfacePass::SurfacePass(Pipelines& pipelines, GpuScene& gpu_scene, const Scene&
         const Object& object = scene.objects[k];
         const Material& material = scene.materials[object.material];
         const uint32_t instance = plan.object_instance[k];
-        const bool is_varying = plan.classes[plan.instances[instance].shade_class].traits.has_varying;
-        const float coverage = material.source ? material.source->base_color.a : 1.0f;
-        if (!is_varying && material.alpha_mode != AlphaMode::opaque && coverage < cutoff(material)) continue;
-        const shared::DrawRecord record = draw_record(object, instance);
+        if (!has_coverage(material)) continue;
+        const MeshRange& range = gpu_scene_.mesh(object.mesh);
+        const shared::DrawRecord record = draw_record(object, range, eye, instance);
         // In a wide G-buffer every material is drawn by the varying shader, so that all targets are written.
         const vulkan::GraphicsPipeline& pipeline =
             pipeline_for(pipelines, material, has_varying_, record.normal_from_object_x.w < 0.0f);
         const vulkan::DescriptorSet& set =
             set_for(pipeline, material, has_varying_ ? object.material : 0, has_varying_, targets);
-        draws_.push_back({&pipeline, &set, record, gpu_scene_.mesh(object.mesh)});
+        draws_.push_back({&pipeline, &set, record, range});
     }
 }
 

@@ -31,6 +31,15 @@ void validate(const MetallicRoughness& source) {
 
 } // namespace
 
+float coverage_cutoff(const Material& material) {
+    return material.alpha_mode == AlphaMode::blend ? 0.5f : material.alpha_cutoff;
+}
+
+bool has_coverage(const Material& material) {
+    const float most = material.source ? material.source->base_color.w : 1.0f;
+    return material.alpha_mode == AlphaMode::opaque || most >= coverage_cutoff(material);
+}
+
 void validate(const KurtLobe& lobe, const std::string& prefix) {
     require_range(prefix + "roughness", lobe.roughness.x, MIN_LOBE_ROUGHNESS, 1.0f);
     require_range(prefix + "roughness", lobe.roughness.y, MIN_LOBE_ROUGHNESS, 1.0f);

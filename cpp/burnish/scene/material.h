@@ -80,6 +80,11 @@ struct Material {
     std::optional<MetallicRoughness> source;
 };
 
+/// Coverage below which a fragment is dropped; blended materials are drawn as masks at one half.
+float coverage_cutoff(const Material& material);
+/// Whether some texel or vertex colour may bring it to its cutoff: else nothing of it shows.
+bool has_coverage(const Material& material);
+
 /// Throws std::invalid_argument, naming field, range and value; `prefix` goes before the field's name.
 void validate(const KurtLobe& lobe, const std::string& prefix = "");
 
