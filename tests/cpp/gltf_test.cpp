@@ -235,8 +235,10 @@ TEST_F(Gltf, ReadsMaterialsAndTheirExtensions) {
     EXPECT_EQ(material.source->base_color.w, 0.75f);
     EXPECT_EQ(scene.ignored_extensions, (std::vector<std::string>{"KHR_materials_sheen", "VENDOR_x"}));
     EXPECT_FALSE(scene.meshes.at(0).tangents.empty()); // anisotropic: derived around y, since there is no uv
-    ASSERT_EQ(scene.warnings.size(), 1u);
-    EXPECT_NE(scene.warnings[0].find("longitude"), std::string::npos);
+    ASSERT_EQ(scene.warnings.size(), 3u);
+    EXPECT_EQ(scene.warnings[0], "KHR_materials_sheen: its materials are drawn without sheen");
+    EXPECT_EQ(scene.warnings[1], "VENDOR_x: not known here, drawn as if it were not there");
+    EXPECT_NE(scene.warnings[2].find("longitude"), std::string::npos);
     EXPECT_TRUE(scene.materials[1].lobes.empty());
     EXPECT_EQ(scene.materials[1].emissive, glm::vec3(0.5f, 0.25f, 1));
     EXPECT_EQ(scene.materials[1].diffuse, glm::vec3(0));

@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <set>
 
 #include <nlohmann/json.hpp>
 
 #include "burnish/error.h"
 #include "burnish/scene/gltf_document.h"
+#include "burnish/scene/gltf_extensions.h"
 #include "burnish/scene/gltf_schema.h"
 
 namespace burnish::gltf {
@@ -20,11 +20,6 @@ constexpr size_t MAX_DEPTH = 64;
 constexpr long long MAX_COUNT = 2147483647;
 constexpr size_t MAX_ENTITIES = 1u << 17; ///< of one kind; tinygltf's structures take up to 2 KB each
 constexpr size_t MAX_NODES = 1u << 19;
-
-const std::set<std::string> SUPPORTED = {
-    "KHR_materials_specular",          "KHR_materials_ior",    "KHR_materials_clearcoat",
-    "KHR_materials_anisotropy",        "KHR_materials_unlit",  "KHR_texture_transform",
-    "KHR_materials_emissive_strength", "KHR_mesh_quantization"};
 
 /// Bounds nesting and the number of values before anything is built from the text.
 void scan(const std::string& path, const std::string& text) {
@@ -206,20 +201,8 @@ void check_version(const std::string& path, const json& asset) {
         throw FileError(path, "asset.minVersion: expected at most 2.0, got \"" + minimum + "\"");
 }
 
-void check_extensions(Document& document, const json& root) {
-    std::string refused;
-    for (const std::string& name : root.value("extensionsRequired", std::vector<std::string>{}))
-        if (!SUPPORTED.count(name)) refused += (refused.empty() ? "" : ", ") + name;
-    if (!refused.empty())
-        throw FileError(document.path,
-                        "extensionsRequired: expected only extensions Burnish knows, got " + refused);
-    for (const std::string& name : root.value("extensionsUsed", std::vector<std::string>{}))
-        if (!SUPPORTED.count(name) &&
-            !std::count(document.ignored_extensions.begin(), document.ignored_extensions.end(), name))
-            document.ignored_extensions.push_back(name);
-}
-
-/// Takes buffers and pictures out of the JSON, so that tinygltf opens no files and decodes nothing.
+/// Takes buffers and pictures out of the JSON, so that tinygltf opens no files and decodes nothing, and
+/// skins, of which it demands inverse bind matrices.
 void move_sources(Document& document, json& root) {
     for (json& buffer : root.value("buffers", json::array())) {
         document.buffer_bytes.push_back(buffer["byteLength"]);
@@ -271,7 +254,8 @@ Document parse_document(const std::string& path, const std::string& text) {
     if (!root.is_object()) throw FileError(path, "JSON: expected an object, got another value");
     Checker(path, root).check_members(root, root_properties(), "");
     check_version(path, root["asset"]);
-    check_extensions(document, root);
+    const std::vector<std::string> none;
+    check_extensions(document, root.value("extensionsRequired", none), root.value("extensionsUsed", none));
     if (root.count("animations") && !root["animations"].empty())
         document.warnings.push_back("animations are not played: the scene is drawn as it stands");
     if (root.count("skins") && !root["skins"].empty())
