@@ -183,14 +183,14 @@ TEST_F(Gltf, FlattensNodesAndRemovesScaleFromCameras) {
     ASSERT_EQ(scene.objects.size(), 2u);
     EXPECT_EQ(scene.objects[0].name, "a");
     EXPECT_EQ(scene.objects[1].name, "a.1");
-    EXPECT_EQ(scene.objects[0].mesh, scene.objects[1].mesh);               // shared
-    EXPECT_LT(glm::determinant(scene.objects[1].world_from_object), 0.0f); // mirrored, as the file says
-    glm::vec3 x(scene.objects[1].world_from_object * glm::vec4(1, 0, 0, 1));
-    EXPECT_NEAR(glm::length(x - glm::vec3(1, 2, 5)), 0.0f,
-                1e-5f); // (-2, 0, 0) turned 90 degrees about y, then moved
+    EXPECT_EQ(scene.objects[0].mesh, scene.objects[1].mesh);              // shared
+    EXPECT_LT(glm::determinant(scene.objects[1].world_from_object), 0.0); // mirrored, as the file says
+    glm::dvec3 x(scene.objects[1].world_from_object * glm::dvec4(1, 0, 0, 1));
+    EXPECT_NEAR(glm::length(x - glm::dvec3(1, 2, 5)), 0.0,
+                1e-7); // (-2, 0, 0) turned 90 degrees about y, then moved
     ASSERT_EQ(scene.cameras.size(), 2u);
-    EXPECT_EQ(scene.cameras[0].world_from_camera[3], glm::vec4(1, 2, 8, 1));
-    EXPECT_NEAR(glm::length(scene.cameras[0].world_from_camera[0]), 1.0f, 1e-6f);
+    EXPECT_EQ(scene.cameras[0].world_from_camera[3], glm::dvec4(1, 2, 8, 1));
+    EXPECT_NEAR(glm::length(scene.cameras[0].world_from_camera[0]), 1.0, 1e-12);
     EXPECT_EQ(scene.cameras[1].half_height, 2.0f);
 }
 

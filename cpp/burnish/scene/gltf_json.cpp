@@ -217,6 +217,12 @@ void move_sources(Document& document, json& root) {
         entry.bufferView = image.value("bufferView", -1);
         document.model.images.push_back(std::move(entry));
     }
+    for (json& skin : root.value("skins", json::array())) {
+        tinygltf::Skin entry;
+        entry.inverseBindMatrices = skin.value("inverseBindMatrices", -1);
+        entry.joints = skin["joints"].get<std::vector<int>>();
+        document.model.skins.push_back(std::move(entry));
+    }
     for (const char* name : {"buffers", "images", "skins", "animations"})
         root.erase(name);
 }
@@ -258,8 +264,6 @@ Document parse_document(const std::string& path, const std::string& text) {
     check_extensions(document, root.value("extensionsRequired", none), root.value("extensionsUsed", none));
     if (root.count("animations") && !root["animations"].empty())
         document.warnings.push_back("animations are not played: the scene is drawn as it stands");
-    if (root.count("skins") && !root["skins"].empty())
-        document.warnings.push_back("skins are not applied: meshes are drawn in their base pose");
     move_sources(document, root);
     std::vector<std::vector<int>> indices = take_indices(root);
 
@@ -281,6 +285,7 @@ Document parse_document(const std::string& path, const std::string& text) {
             structure.meshes.at(mesh).primitives.at(primitive).indices = indices[mesh][primitive];
     structure.buffers = std::move(document.model.buffers);
     structure.images = std::move(document.model.images);
+    structure.skins = std::move(document.model.skins);
     document.model = std::move(structure);
     return document;
 }
