@@ -65,7 +65,7 @@ struct ViewRecord {
     uint width_px;
     uint height_px;
     uint background_map; // MapRecord behind everything
-    uint pad0;
+    uint picture; // of those that are averaged, counted from 0
 };
 SHARED_SIZE(ViewRecord, 128)
 
@@ -149,7 +149,7 @@ struct TextureRecord {
     vec4 scale_rotation; // columns of the 2x2 matrix: xy, zw
     vec2 offset;
     uint uv_set; // 0 or 1
-    uint pad0;
+    uint coverage_levels; // COVERAGE_LEVELS_*: of the base colour, what alpha of its mip levels is
 };
 SHARED_SIZE(TextureRecord, 32)
 

@@ -5,6 +5,7 @@
 
 #include <glm/gtc/packing.hpp>
 
+#include "burnish/render/mask_coverage.h"
 #include "burnish/render/octahedral.h"
 #include "burnish/vulkan/device.h"
 #include "burnish/vulkan/transfer.h"
@@ -185,33 +186,39 @@ void GpuScene::upload_meshes(const vulkan::DevicePointer& device, const Scene& s
 uint64_t GpuScene::memory_bytes() const {
     uint64_t bytes = vertices_.size_bytes() + texture_vertices_.size_bytes() + indices_.size_bytes();
     for (const TextureImage& picture : pictures_)
-        bytes += 4 * picture.rgba.size(); // here, and with 4/3 for its levels twice on the device
+        bytes += 5 * picture.rgba.size(); // here, and with 4/3 for its levels in three forms on the device
     return bytes;
 }
 
-vulkan::Image GpuScene::upload_image(const TextureImage& picture, bool is_srgb) const {
+vulkan::Image GpuScene::upload_image(const TextureUse& use, bool is_srgb,
+                                     std::optional<float> mask_cutoff) const {
+    const TextureImage white{"white", 1, 1, {255, 255, 255, 255}};
+    const TextureImage& picture = use.is_used() ? pictures_[size_t(use.image)] : white;
     vulkan::ImageSettings settings;
     settings.format = is_srgb ? VK_FORMAT_R8G8B8A8_SRGB : VK_FORMAT_R8G8B8A8_UNORM;
     settings.width = picture.width;
     settings.height = picture.height;
     settings.levels = vulkan::full_levels(picture.width, picture.height);
     vulkan::Image image(device_, settings);
-    vulkan::upload(image, {}, std::as_bytes(std::span(picture.rgba)), VK_IMAGE_LAYOUT_GENERAL);
+    const std::vector<uint8_t> averaged =
+        mask_cutoff ? with_coverage(picture, use.sampler, *mask_cutoff) : std::vector<uint8_t>{};
+    vulkan::upload(image, {}, std::as_bytes(std::span(mask_cutoff ? averaged : picture.rgba)),
+                   VK_IMAGE_LAYOUT_GENERAL);
     vulkan::Commands commands(device_);
     commands.blit_levels(image);
     commands.transition(image, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
     commands.submit();
+    if (mask_cutoff) vulkan::upload(image, {}, std::as_bytes(std::span(picture.rgba)));
     return image;
 }
 
-BoundTexture GpuScene::texture(const TextureUse& use, bool is_srgb) {
-    const std::pair<int32_t, bool> key(use.is_used() ? use.image : -1, use.is_used() && is_srgb);
+BoundTexture GpuScene::texture(const TextureUse& use, bool is_srgb, std::optional<float> mask_cutoff) {
+    ImageKey key(use.is_used() ? use.image : -1, use.is_used() && is_srgb, 0.0f, {}, {}, {});
+    if (mask_cutoff)
+        key = {use.image, is_srgb, *mask_cutoff, use.sampler.wrap_u, use.sampler.wrap_v, use.sampler.magnify};
     auto image = images_.find(key);
-    if (image == images_.end()) {
-        const TextureImage white{"white", 1, 1, {255, 255, 255, 255}};
-        const TextureImage& picture = use.is_used() ? pictures_[size_t(use.image)] : white;
-        image = images_.emplace(key, upload_image(picture, key.second)).first;
-    }
+    if (image == images_.end())
+        image = images_.emplace(key, upload_image(use, std::get<1>(key), mask_cutoff)).first;
     const std::array<int, 5> sampler_key = {int(use.sampler.wrap_u), int(use.sampler.wrap_v),
                                             int(use.sampler.magnify), int(use.sampler.minify),
                                             int(use.sampler.mip)};

@@ -176,6 +176,7 @@ std::optional<Frame> Renderer::draw_once(const Scene& scene, const Camera& camer
         shared::ViewRecord view =
             make_view(camera, settings.width, settings.height, offsets[picture]);
         view.background_map = 0;
+        view.picture = picture;
         keep_clip_in_range(view, surface.clip_reach(view.clip_from_world));
         vulkan::upload(targets.view, std::span<const shared::ViewRecord>(&view, 1));
         vulkan::Commands commands(device_);

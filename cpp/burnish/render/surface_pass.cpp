@@ -37,9 +37,21 @@ uint32_t texture_mask(const Material& material) {
     return mask;
 }
 
-/// Coverage below which a fragment is dropped; blended materials are drawn as masks at one half.
-float cutoff(const Material& material) {
-    return material.alpha_mode == AlphaMode::blend ? 0.5f : material.alpha_cutoff;
+/// The texel's alpha from which a masked material shows, where mip levels hold the coverage that this makes.
+std::optional<float> texel_cutoff(const Material& material, uint32_t kind) {
+    if (kind != shared::TEXTURE_BASE_COLOR || material.alpha_mode == AlphaMode::opaque) return std::nullopt;
+    if (!material.source || !material.source->base_color_texture.is_used() || !has_coverage(material))
+        return std::nullopt;
+    if (material.source->base_color_texture.sampler.mip == MipFilter::none) return std::nullopt;
+    const float cutoff = coverage_cutoff(material) / material.source->base_color.w;
+    return cutoff > 0.0f && cutoff <= 1.0f ? std::optional(cutoff) : std::nullopt;
+}
+
+/// How a level of the base colour's texture goes over into the next, COVERAGE_LEVELS_*.
+uint32_t coverage_levels(const Material& material, uint32_t kind) {
+    if (!texel_cutoff(material, kind)) return shared::COVERAGE_LEVELS_NONE;
+    const bool is_nearest = material.source->base_color_texture.sampler.mip == MipFilter::nearest;
+    return is_nearest ? shared::COVERAGE_LEVELS_NEAREST : shared::COVERAGE_LEVELS_LINEAR;
 }
 
 shared::SurfaceRecord surface_record(const Material& material, uint32_t texture_begin) {
@@ -47,7 +59,7 @@ shared::SurfaceRecord surface_record(const Material& material, uint32_t texture_
     const float reflectance = (source.ior - 1.0f) / (source.ior + 1.0f);
     shared::SurfaceRecord record{};
     record.base_color = source.base_color;
-    record.emissive = glm::vec4(material.emissive, cutoff(material));
+    record.emissive = glm::vec4(material.emissive, coverage_cutoff(material));
     record.specular = glm::vec4(reflectance * reflectance * source.specular_color, 1.0f) *
                       glm::vec4(1.0f, 1.0f, 1.0f, source.specular);
     record.metallic = source.metallic;
@@ -170,7 +182,8 @@ void SurfacePass::add_records(const vulkan::DevicePointer& device, const Scene& 
         for (const TextureSlot& slot : TEXTURE_SLOTS) {
             const TextureUse use = material.source ? *material.source.*slot.use : TextureUse{};
             const glm::mat2& m = use.uv_scale_rotation;
-            textures.push_back({glm::vec4(m[0], m[1]), use.uv_offset, use.uv_set, 0});
+            textures.push_back(
+                {glm::vec4(m[0], m[1]), use.uv_offset, use.uv_set, coverage_levels(material, slot.kind)});
         }
     }
     if (surfaces.empty()) {
@@ -222,7 +235,8 @@ const vulkan::DescriptorSet& SurfacePass::set_for(const vulkan::GraphicsPipeline
     set.bind(shared::BINDING_SURFACE_TEXTURE_RECORDS, texture_records_);
     for (const TextureSlot& slot : TEXTURE_SLOTS) {
         const BoundTexture texture =
-            gpu_scene_.texture(material.source ? *material.source.*slot.use : TextureUse{}, slot.is_srgb);
+            gpu_scene_.texture(material.source ? *material.source.*slot.use : TextureUse{}, slot.is_srgb,
+                               texel_cutoff(material, slot.kind));
         set.bind(shared::BINDING_SURFACE_TEXTURES, texture.image->view(), *texture.sampler,
                  VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, slot.kind);
     }
