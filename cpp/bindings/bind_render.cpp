@@ -274,10 +274,10 @@ void bind_render(py::module_& m) {
           "dict: passes, effects and shade classes with their reasons; nothing is rendered.");
     m.def(
         "capture",
-        [](render::Renderer& renderer, const Scene& scene, const Triple& point, uint32_t face_size,
+        [](render::Renderer& renderer, const Scene& scene, const Place& point, uint32_t face_size,
            std::optional<uint32_t> without_object) {
             const py::gil_scoped_release release;
-            return render::capture(renderer, scene, vec3_of(point), face_size, without_object);
+            return render::capture(renderer, scene, dvec3_of(point), face_size, without_object);
         },
         py::arg("device"), py::arg("scene"), py::arg("point"), py::arg("face_size"),
         py::arg("without_object").none(true),

@@ -23,10 +23,10 @@ uint32_t require_index(const char* name, int64_t index, size_t count) {
     return static_cast<uint32_t>(index);
 }
 
-glm::mat4 transform_of(const py::object& transform, const char* name) {
-    glm::mat4 matrix = mat4_of(transform, name);
-    if (!is_finite(matrix) || matrix[0].w != 0.0f || matrix[1].w != 0.0f || matrix[2].w != 0.0f ||
-        matrix[3].w != 1.0f)
+glm::dmat4 transform_of(const py::object& transform, const char* name) {
+    glm::dmat4 matrix = dmat4_of(transform, name);
+    if (!is_finite(glm::mat4(matrix)) || matrix[0].w != 0.0 || matrix[1].w != 0.0 || matrix[2].w != 0.0 ||
+        matrix[3].w != 1.0)
         throw std::invalid_argument(
             message(name, ": expected finite numbers with a last row of 0 0 0 1, got others"));
     return matrix;
@@ -35,7 +35,7 @@ glm::mat4 transform_of(const py::object& transform, const char* name) {
 uint32_t add(Scene& scene, const Mesh& mesh, const Material& material,
              const std::optional<py::object>& transform, std::string name) {
     Object object;
-    object.world_from_object = transform ? transform_of(*transform, "transform") : glm::mat4(1.0f);
+    object.world_from_object = transform ? transform_of(*transform, "transform") : glm::dmat4(1.0);
     object.name = name.empty() ? message("object.", scene.objects.size()) : std::move(name);
     for (const Object& other : scene.objects)
         if (other.name == object.name)
@@ -76,7 +76,7 @@ void bind_object(py::module_& m) {
             [](const ObjectHandle& x, const py::object& transform) {
                 x.get().world_from_object = transform_of(transform, "world_from_object");
             },
-            "(4, 4) float32, a copy: assign a whole matrix to change it.")
+            "(4, 4) float64, a copy: assign a whole matrix to change it.")
         .def_property(
             "reflects", [](const ObjectHandle& x) { return mutable_of(x.get().reflects); },
             [](const ObjectHandle& x, std::shared_ptr<Environment> environment) {

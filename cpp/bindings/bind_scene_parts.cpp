@@ -42,18 +42,18 @@ const char* alpha_mode_name(const Material& material) {
     }
 }
 
-Camera make_look_at(const Triple& eye, const Triple& target, const Triple& up, float vertical_fov,
+Camera make_look_at(const Place& eye, const Place& target, const Place& up, float vertical_fov,
                     float near_plane) {
-    Camera camera = look_at(vec3_of(eye), vec3_of(target), vec3_of(up));
+    Camera camera = look_at(dvec3_of(eye), dvec3_of(target), dvec3_of(up));
     camera.vertical_fov = vertical_fov;
     camera.near_plane = near_plane;
     validate(camera);
     return camera;
 }
 
-Camera make_orthographic(const Triple& eye, const Triple& target, const Triple& up, float half_height,
+Camera make_orthographic(const Place& eye, const Place& target, const Place& up, float half_height,
                          float near_plane, float far_plane) {
-    Camera camera = look_at(vec3_of(eye), vec3_of(target), vec3_of(up));
+    Camera camera = look_at(dvec3_of(eye), dvec3_of(target), dvec3_of(up));
     camera.is_orthographic = true;
     camera.half_height = half_height;
     camera.near_plane = near_plane;
@@ -65,7 +65,7 @@ Camera make_orthographic(const Triple& eye, const Triple& target, const Triple& 
 Camera make_camera(const py::object& world_from_camera, float vertical_fov, float near_plane,
                    std::string name) {
     Camera camera;
-    camera.world_from_camera = mat4_of(world_from_camera, "world_from_camera");
+    camera.world_from_camera = dmat4_of(world_from_camera, "world_from_camera");
     camera.vertical_fov = vertical_fov;
     camera.near_plane = near_plane;
     camera.name = std::move(name);
@@ -187,13 +187,13 @@ ValueError
         .def(py::init(&make_camera), py::arg("world_from_camera"), py::arg("vertical_fov") = 0.8f,
              py::arg("near_plane") = 0.01f, py::arg("name") = "")
         .def_static("look_at", &make_look_at, py::arg("eye"), py::arg("target"),
-                    py::arg("up") = Triple{0, 1, 0}, py::arg("vertical_fov") = 0.8f,
+                    py::arg("up") = Place{0, 1, 0}, py::arg("vertical_fov") = 0.8f,
                     py::arg("near_plane") = 0.01f,
                     "A pinhole camera at a point, looking at another.\n\nParameters\n----------\neye, "
                     "target, up : (3,) floats\n"
                     "vertical_fov : float\n    Radians, between 0 and pi.\nnear_plane : float\n    > 0.")
         .def_static("orthographic", &make_orthographic, py::arg("eye"), py::arg("target"),
-                    py::arg("up") = Triple{0, 1, 0}, py::arg("half_height") = 1.0f,
+                    py::arg("up") = Place{0, 1, 0}, py::arg("half_height") = 1.0f,
                     py::arg("near_plane") = 0.0f, py::arg("far_plane") = 1000.0f,
                     "A camera without perspective.\n\nParameters\n----------\neye, target, up : (3,) "
                     "floats\nhalf_height : float\n"
@@ -201,7 +201,7 @@ ValueError
                     "along the view.")
         .def_property_readonly(
             "world_from_camera", [](const Camera& x) { return array_of(x.world_from_camera); },
-            "(4, 4) float32, a copy.")
+            "(4, 4) float64, a copy.")
         .def_readonly("is_orthographic", &Camera::is_orthographic, "Whether it has no perspective.")
         .def_readonly("vertical_fov", &Camera::vertical_fov, "Radians; perspective only.")
         .def_readonly("half_height", &Camera::half_height, "Orthographic only.")

@@ -41,7 +41,7 @@ std::map<std::string, Layout> shared_layout() {
         {"ViewRecord",
          {FIELD(ViewRecord, clip_from_world), FIELD(ViewRecord, ray_corner), FIELD(ViewRecord, ray_dx),
           FIELD(ViewRecord, ray_dy), FIELD(ViewRecord, width_px), FIELD(ViewRecord, height_px),
-          FIELD(ViewRecord, background_map), FIELD(ViewRecord, pad0)}},
+          FIELD(ViewRecord, background_map), FIELD(ViewRecord, picture)}},
         {"SurfacePoint",
          {FIELD(SurfacePoint, normal), FIELD(SurfacePoint, tangent), FIELD(SurfacePoint, omega_o)}},
         {"Counters", {FIELD(Counters, stopped), FIELD(Counters, first)}},
@@ -77,7 +77,7 @@ std::map<std::string, Layout> shared_layout() {
           FIELD(TexelAlias, pad0)}},
         {"TextureRecord",
          {FIELD(TextureRecord, scale_rotation), FIELD(TextureRecord, offset), FIELD(TextureRecord, uv_set),
-          FIELD(TextureRecord, pad0)}},
+          FIELD(TextureRecord, coverage_levels)}},
     };
 }
 

@@ -41,8 +41,16 @@ inline py::tuple tuple_of(const glm::vec3& v) {
     return py::make_tuple(v.x, v.y, v.z);
 }
 
+using Place = std::array<double, 3>; ///< a point of the world
+inline glm::dvec3 dvec3_of(const Place& place) {
+    return {place[0], place[1], place[2]};
+}
+inline py::tuple tuple_of(const glm::dvec3& v) {
+    return py::make_tuple(v.x, v.y, v.z);
+}
+
 /// (4, 4) numbers, m[row][column] as written on paper: the last column is the translation.
-inline glm::mat4 mat4_of(const py::object& object, const char* name) {
+inline glm::dmat4 dmat4_of(const py::object& object, const char* name) {
     const auto array = py::array_t<double, py::array::c_style | py::array::forcecast>::ensure(object);
     if (!array) {
         PyErr_Clear();
@@ -52,15 +60,15 @@ inline glm::mat4 mat4_of(const py::object& object, const char* name) {
     if (array.ndim() != 2 || array.shape(0) != 4 || array.shape(1) != 4)
         throw std::invalid_argument(message(name, ": expected numbers of shape (4, 4), got shape ",
                                             shape_text({array.shape(), array.shape() + array.ndim()})));
-    glm::mat4 matrix;
+    glm::dmat4 matrix;
     for (int row = 0; row < 4; ++row)
         for (int column = 0; column < 4; ++column)
-            matrix[column][row] = static_cast<float>(array.at(row, column));
+            matrix[column][row] = array.at(row, column);
     return matrix;
 }
 
-inline py::array_t<float> array_of(const glm::mat4& matrix) {
-    std::vector<float> rows;
+inline py::array_t<double> array_of(const glm::dmat4& matrix) {
+    std::vector<double> rows;
     for (int row = 0; row < 4; ++row)
         for (int column = 0; column < 4; ++column)
             rows.push_back(matrix[column][row]);

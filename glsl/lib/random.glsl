@@ -25,6 +25,12 @@ vec2 recurrence_2d(uint index, uint seed) {
 // All 32 bits of its first coordinate, for choices among more than 2^24.
 uint recurrence_3d_x(uint index, uint seed) { return index * 3518319155u + hash_uint(seed ^ 0x68bc21ebu); }
 
+// Threshold of a pixel in one of several pictures, [0, 1): the recurrence of the plastic number over rows and columns, that of the
+// golden ratio over pictures. Any neighbourhood of pixels and any run of pictures has thresholds spread evenly.
+float dither(uvec2 pixel, uint picture) {
+    return unit_from_uint(pixel.x * 3242174889u + pixel.y * 2447445414u + picture * 2654435769u);
+}
+
 vec3 recurrence_3d(uint index, uint seed) {
     uint x = recurrence_3d_x(index, seed);
     uint y = index * 2882110345u + hash_uint(seed ^ 0x02e5be93u);

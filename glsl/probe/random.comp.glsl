@@ -12,6 +12,7 @@ void run() {
     case PROBE_UNIT_FROM_UINT: put(unit_from_uint(a.x)); break;
     case PROBE_RECURRENCE_2D: put(recurrence_2d(a.x, a.y)); break;
     case PROBE_RECURRENCE_3D: put(recurrence_3d(a.x, a.y)); break;
+    case PROBE_DITHER: put(dither(a.xy, a.z)); break;
     case PROBE_RECURRENCE_3D_X: put(recurrence_3d_x(a.x, a.y)); break;
     }
 }

@@ -144,11 +144,17 @@ SHARED_CONST uint TEXTURE_ANISOTROPY = 7u;
 SHARED_CONST uint TEXTURE_CLEARCOAT = 8u;
 SHARED_CONST uint TEXTURE_CLEARCOAT_ROUGHNESS = 9u;
 SHARED_CONST uint TEXTURE_KINDS = 10u;
+// Alpha of a masked texture's mip levels: averaged, or coverage that is averaged, and how levels go over into each
+// other.
+SHARED_CONST uint COVERAGE_LEVELS_NONE = 0u;
+SHARED_CONST uint COVERAGE_LEVELS_NEAREST = 1u;
+SHARED_CONST uint COVERAGE_LEVELS_LINEAR = 2u;
 SHARED_CONST uint SPEC_TEXTURES = 0u; // bit k: texture kind k is read
 SHARED_CONST uint SPEC_VERTEX_COLOR = 1u;
 SHARED_CONST uint SPEC_ALPHA_MASK = 2u;
 SHARED_CONST uint SPEC_DOUBLE_SIDED = 3u;
 SHARED_CONST uint SPEC_SURFACE_TANGENT = 4u;
+SHARED_CONST uint SPEC_UNLIT = 5u; // KHR_materials_unlit: vertex colours multiply the emission
 
 SHARED_END
 

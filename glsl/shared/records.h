@@ -58,14 +58,14 @@ SHARED_SIZE(MapRecord, 16 * MAP_ROWS)
 
 // The view a frame is drawn from. A pixel's ray is ray_corner + (x + .5) ray_dx + (y + .5) ray_dy, x right, y down.
 struct ViewRecord {
-    mat4 clip_from_world; // reverse z
+    mat4 clip_from_world; // reverse z; the world's axes, its origin at the eye
     vec4 ray_corner;      // xyz: world direction through the picture's top left corner, not normalised
     vec4 ray_dx;
     vec4 ray_dy;
     uint width_px;
     uint height_px;
     uint background_map; // MapRecord behind everything
-    uint pad0;
+    uint picture; // of those that are averaged, counted from 0
 };
 SHARED_SIZE(ViewRecord, 128)
 
@@ -102,7 +102,7 @@ SHARED_SIZE(SurfaceRecord, 80)
 
 // Push constants of one draw.
 struct DrawRecord {
-    mat4 world_from_object;
+    mat4 world_from_object; // to the world's axes with the origin at the eye
     vec4 normal_from_object_x; // columns of the inverse transpose; x.w: +-1, the sign of its determinant
     vec4 normal_from_object_y;
     vec4 normal_from_object_z;
@@ -149,7 +149,7 @@ struct TextureRecord {
     vec4 scale_rotation; // columns of the 2x2 matrix: xy, zw
     vec2 offset;
     uint uv_set; // 0 or 1
-    uint pad0;
+    uint coverage_levels; // COVERAGE_LEVELS_*: of the base colour, what alpha of its mip levels is
 };
 SHARED_SIZE(TextureRecord, 32)
 

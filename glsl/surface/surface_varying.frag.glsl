@@ -4,15 +4,18 @@
 
 #include "lib/frame.glsl"
 #include "lib/metallic_roughness.glsl"
+#include "lib/random.glsl"
 #include "shared/constants.h"
 #include "shared/records.h"
 
 layout(constant_id = SPEC_TEXTURES) const uint TEXTURES = 0u;
 layout(constant_id = SPEC_VERTEX_COLOR) const bool HAS_VERTEX_COLOR = false;
 layout(constant_id = SPEC_ALPHA_MASK) const bool HAS_ALPHA_MASK = false;
+layout(constant_id = SPEC_UNLIT) const bool IS_UNLIT = false;
 layout(constant_id = SPEC_DOUBLE_SIDED) const bool IS_DOUBLE_SIDED = false;
 
 layout(push_constant) uniform Push { DrawRecord draw; };
+layout(std430, binding = BINDING_SURFACE_VIEW) readonly buffer Views { ViewRecord view; };
 layout(std430, binding = BINDING_SURFACE_MATERIALS) readonly buffer Materials { SurfaceRecord materials[]; };
 layout(std430, binding = BINDING_SURFACE_TEXTURE_RECORDS) readonly buffer TextureRecords { TextureRecord texture_records[]; };
 layout(binding = BINDING_SURFACE_TEXTURES) uniform sampler2D textures[TEXTURE_KINDS];
@@ -47,6 +50,30 @@ vec4 read_texture(uint kind, vec4 absent) {
     return textureGrad(textures[kind], scale_rotation * set + record.offset, dx, dy);
 }
 
+// How much of the base colour's alpha, as it was read, is coverage: level 0 of its texture holds alpha, all others the share of
+// level 0 that shows.
+float coverage_share() {
+    TextureRecord record = texture_records[material.texture_begin + TEXTURE_BASE_COLOR];
+    if (record.coverage_levels == COVERAGE_LEVELS_NONE) return 0.0;
+    mat2 scale_rotation = mat2(record.scale_rotation.xy, record.scale_rotation.zw);
+    vec2 size = vec2(textureSize(textures[TEXTURE_BASE_COLOR], 0));
+    vec2 dx = size * (scale_rotation * (record.uv_set == 0u ? uv_dx.xy : uv_dx.zw));
+    vec2 dy = size * (scale_rotation * (record.uv_set == 0u ? uv_dy.xy : uv_dy.zw));
+    float level = 0.5 * log2(max(max(dot(dx, dx), dot(dy, dy)), 1e-30));
+    if (record.coverage_levels == COVERAGE_LEVELS_NEAREST) return level > 0.5 ? 1.0 : 0.0;
+    return clamp(level, 0.0, 1.0);
+}
+
+// Whether a masked material lets the pixel through. `most`: alpha without the texture. Coverage is held against thresholds spread
+// evenly over the pixels and over the pictures that are averaged: as many let through as are covered.
+bool is_cut_out(float alpha, float most) {
+    float cutoff = material.emissive.a;
+    if (most < cutoff) return true;
+    if (!has_texture(TEXTURE_BASE_COLOR)) return false;
+    float threshold = 0.5 / 255.0 + 254.0 / 255.0 * dither(uvec2(gl_FragCoord.xy), view.picture); // 0 never, 1 always shows
+    return alpha < mix(cutoff, most * threshold, coverage_share());
+}
+
 // Half-precision targets truncate on some drivers: round to nearest first.
 vec4 round_to_half(vec4 v) {
     v = min(v, vec4(65504.0));
@@ -57,9 +84,11 @@ void main() {
     uv_dx = dFdx(uv);
     uv_dy = dFdy(uv);
     material = materials[draw.material];
-    vec4 base = material.base_color * read_texture(TEXTURE_BASE_COLOR, vec4(1.0));
+    vec4 base = material.base_color;
     if (HAS_VERTEX_COLOR) base *= color;
-    if (HAS_ALPHA_MASK && base.a < material.emissive.a) discard;
+    float most_alpha = base.a;
+    base *= read_texture(TEXTURE_BASE_COLOR, vec4(1.0));
+    if (HAS_ALPHA_MASK && is_cut_out(base.a, most_alpha)) discard;
 
     vec3 normal = normalize(normal_world);
     if (IS_DOUBLE_SIDED && !gl_FrontFacing) normal = -normal;
@@ -82,14 +111,15 @@ void main() {
     }
 
     vec4 metallic_roughness = read_texture(TEXTURE_METALLIC_ROUGHNESS, vec4(1.0));
-    float specular = read_texture(TEXTURE_SPECULAR, vec4(1.0)).a;
+    float specular = material.specular.a * read_texture(TEXTURE_SPECULAR, vec4(1.0)).a;
     vec3 specular_color = read_texture(TEXTURE_SPECULAR_COLOR, vec4(1.0)).rgb;
     MappedMaterial mapped = map_metallic_roughness(base.rgb, material.metallic * metallic_roughness.b,
                                                    material.roughness * metallic_roughness.g,
                                                    min(material.specular.rgb * specular_color, vec3(1.0)) * specular,
-                                                   material.specular.a * specular, anisotropy);
+                                                   specular, anisotropy);
     float occlusion = 1.0 + material.occlusion_strength * (read_texture(TEXTURE_OCCLUSION, vec4(1.0)).r - 1.0);
     vec3 emissive = material.emissive.rgb * read_texture(TEXTURE_EMISSIVE, vec4(1.0)).rgb;
+    if (IS_UNLIT && HAS_VERTEX_COLOR) emissive *= color.rgb;
     float coat = material.clearcoat * read_texture(TEXTURE_CLEARCOAT, vec4(1.0)).r;
     float coat_roughness = material.clearcoat_roughness * read_texture(TEXTURE_CLEARCOAT_ROUGHNESS, vec4(1.0)).g;
 

@@ -36,8 +36,10 @@ def _png(pixels: np.ndarray) -> str:
     return _data_uri("image/png", buffer.getvalue())
 
 
-def textured_sphere(path: Path, textures: dict[str, np.ndarray], has_colors: bool = False) -> Path:
-    """Write the unit sphere as glTF with 8-bit textures by the name of their slot."""
+def textured_sphere(
+    path: Path, textures: dict[str, np.ndarray], has_colors: bool = False, **fields: object
+) -> Path:
+    """Write the unit sphere as glTF with 8-bit textures by the name of their slot; fields of its material."""
     mesh = Mesh.sphere()
     arrays = {
         "POSITION": (mesh.positions, "VEC3"),
@@ -65,6 +67,7 @@ def textured_sphere(path: Path, textures: dict[str, np.ndarray], has_colors: boo
         (material["pbrMetallicRoughness"] if "Color" in name or "metallic" in name else material)[name] = slot
     if "emissiveTexture" in slots:
         material["emissiveFactor"] = [1, 1, 1]
+    material |= fields
     document = {
         "asset": {"version": "2.0"},
         "scenes": [{"nodes": [0]}],
@@ -109,6 +112,23 @@ def _texture_rows(folder: Path, environment: Environment) -> Iterator[Row]:
         yield kind.removesuffix("Texture") + " texture", ("surface", "shade"), scenes, (1, 1, 1)
 
 
+def _mask_and_unlit_rows(folder: Path, environment: Environment) -> Iterator[Row]:
+    noise = np.random.default_rng(3).integers(0, 255, (256, 256, 4))
+    solid = np.concatenate([noise[..., :3], np.full((256, 256, 1), 255)], axis=-1)
+    mask, unlit = {"alphaMode": "MASK"}, {"extensions": {"KHR_materials_unlit": {}}}
+
+    def load(name: str, texels: np.ndarray | None, has_colors: bool = False, **fields: object) -> Scene:
+        textures = {} if texels is None else {"baseColorTexture": texels}
+        scene = Scene.from_file(textured_sphere(folder / f"{name}.gltf", textures, has_colors, **fields))
+        scene.environment = environment
+        return scene
+
+    scenes = (load("opaque", noise), load("solid", solid, **mask), load("mask", noise, **mask))
+    yield "alpha mask", ("surface", "shade"), scenes, (1, 1, 1)
+    scenes = (load("lit", None, True), load("unlit", None, False, **unlit), load("both", None, True, **unlit))
+    yield "unlit, with vertex colours", ("surface", "shade"), scenes, (1, 1, 1)
+
+
 def effect_scenes(folder: Path, environment: Environment) -> Iterator[Row]:
     """Name, the numbers to show, the three scenes and their spp."""
     plain = _lobes(environment, KurtLobe(0.1))
@@ -142,3 +162,4 @@ def effect_scenes(folder: Path, environment: Environment) -> Iterator[Row]:
         yield name, ("shade",), (plain, zero, present), once
     yield "accumulation", ("wall",), (plain, plain, plain), (1, 2, 4)
     yield from _texture_rows(folder, environment)
+    yield from _mask_and_unlit_rows(folder, environment)

@@ -190,9 +190,9 @@ TEST(Capture, SeesTheLampOnItsSideAndLeavesTheObjectOut) {
     Material lamp;
     lamp.emissive = glm::vec3(5.0f);
     Scene scene = Scene::sphere(lamp);
-    scene.objects[0].world_from_object[3] = glm::vec4(3, 0, 0, 1);
+    scene.objects[0].world_from_object[3] = glm::dvec4(3, 0, 0, 1);
     scene.environment = uniform_environment(0.5f);
-    const auto captured = capture(renderer(), scene, glm::vec3(0.0f), 16, std::nullopt);
+    const auto captured = capture(renderer(), scene, glm::dvec3(0.0), 16, std::nullopt);
     const auto middle = [](const Environment& map, uint32_t face) {
         const uint32_t n = map.face_size();
         return map.radiance()[((size_t(face) * n + n / 2) * n + n / 2) * 3];
@@ -200,10 +200,10 @@ TEST(Capture, SeesTheLampOnItsSideAndLeavesTheObjectOut) {
     EXPECT_NEAR(middle(*captured, 0), 5.0f, 1e-3f);
     for (uint32_t face = 1; face < 6; ++face)
         EXPECT_NEAR(middle(*captured, face), 0.5f, 1e-3f) << face;
-    const auto without = capture(renderer(), scene, glm::vec3(0.0f), 16, 0u);
+    const auto without = capture(renderer(), scene, glm::dvec3(0.0), 16, 0u);
     EXPECT_NEAR(middle(*without, 0), 0.5f, 1e-3f);
-    EXPECT_THROW(capture(renderer(), scene, glm::vec3(0.0f), 12, std::nullopt), std::invalid_argument);
-    EXPECT_THROW(capture(renderer(), scene, glm::vec3(0.0f), 16, 1u), std::invalid_argument);
+    EXPECT_THROW(capture(renderer(), scene, glm::dvec3(0.0), 12, std::nullopt), std::invalid_argument);
+    EXPECT_THROW(capture(renderer(), scene, glm::dvec3(0.0), 16, 1u), std::invalid_argument);
 }
 
 TEST(Render, FramesRefuseSizesOutOfRange) {

@@ -72,7 +72,7 @@ TEST(Material, ClearcoatIsALobeOnTop) {
 
 TEST(Camera, LooksAtItsTarget) {
     Camera camera = look_at({1, 2, 3}, {4, 2, 3}, {0, 5, 0});
-    EXPECT_EQ(glm::vec3(camera.world_from_camera * glm::vec4(0, 0, -3, 1)), glm::vec3(4, 2, 3));
+    EXPECT_EQ(glm::vec3(camera.world_from_camera * glm::dvec4(0, 0, -3, 1)), glm::vec3(4, 2, 3));
     EXPECT_EQ(glm::vec3(camera.world_from_camera[1]), glm::vec3(0, 1, 0));
     validate(camera);
     EXPECT_EQ(message_of([] {
@@ -94,17 +94,18 @@ TEST(Scene, DefaultCameraSeesEverything) {
                                  Scene::shader_ball(material, material),
                                  Scene::spheres(std::vector<Material>(11, material), 4)};
     scenes.push_back(scenes[0]);
-    scenes.back().objects[0].world_from_object = glm::mat4(1e-4f); // eight hundredths of a millimetre
-    scenes.back().objects[0].world_from_object[3] = {0.001f, 0, 0, 1};
+    scenes.back().objects[0].world_from_object = glm::dmat4(1e-4); // eight hundredths of a millimetre
+    scenes.back().objects[0].world_from_object[3] = {0.001, 0, 0, 1};
     for (const Scene& scene : scenes) {
         validate(scene);
         Camera camera = scene.default_camera();
         validate(camera);
-        glm::mat4 camera_from_world = glm::inverse(camera.world_from_camera);
+        glm::dmat4 camera_from_world = glm::inverse(camera.world_from_camera);
         float slope = std::tan(0.5f * camera.vertical_fov), widest = 0.0f;
         for (const Object& object : scene.objects)
             for (const glm::vec3& position : scene.meshes[object.mesh].positions) {
-                glm::vec3 p(camera_from_world * object.world_from_object * glm::vec4(position, 1.0f));
+                glm::vec3 p(camera_from_world * object.world_from_object *
+                            glm::dvec4(glm::dvec3(position), 1.0));
                 ASSERT_LT(p.z, -camera.near_plane);
                 widest = std::max({widest, std::abs(p.x / p.z) / slope, std::abs(p.y / p.z) / slope});
             }
@@ -119,7 +120,7 @@ TEST(Scene, BoundsFollowTransformsAndFindObjectListsNames) {
     EXPECT_NEAR(bounds.high.x, 2.1f, 1e-5f);
     EXPECT_NEAR(bounds.low.y, -2.1f, 1e-5f);
     EXPECT_NEAR(scene.object_bounds(0).center().y, 1.1f, 1e-5f);
-    EXPECT_EQ(Scene{}.bounds().low, glm::vec3(-1.0f));
+    EXPECT_EQ(Scene{}.bounds().low, glm::dvec3(-1.0));
     EXPECT_EQ(scene.find_object("sphere.2"), 2u);
     EXPECT_EQ(message_of([&] { scene.find_object("cube"); }),
               "object: expected one of \"sphere.0\", \"sphere.1\", \"sphere.2\", got \"cube\"");

@@ -207,6 +207,8 @@ void add_effect_lines(const Scene& scene, Plan& plan) {
             [&](const Material& one) { return has_texture(one, kind.use); });
     add("vertex colour", "no material has vertex colours",
         [](const Material& one) { return one.source && one.source->has_vertex_color; });
+    add("unlit", "every material is lit",
+        [](const Material& one) { return one.source && one.source->is_unlit; });
     add("alpha mask", "every material is opaque",
         [](const Material& one) { return one.alpha_mode != AlphaMode::opaque; });
 

@@ -217,6 +217,20 @@ void add_classes(const Scene& scene, Plan& plan) {
     }
 }
 
+void warn_of_nothing_drawn(const Scene& scene, Plan& plan) {
+    const auto shows = [&](const Object& object) {
+        // Points are shaded without a mesh.
+        const bool has_triangles =
+            object.mesh >= scene.meshes.size() || !scene.meshes[object.mesh].indices.empty();
+        return has_triangles && has_coverage(scene.materials[object.material]);
+    };
+    if (scene.objects.empty())
+        plan.warnings.push_back("nothing is drawn: the scene has no objects");
+    else if (std::none_of(scene.objects.begin(), scene.objects.end(), shows))
+        plan.warnings.push_back(
+            "nothing is drawn: every object is without triangles, or its coverage below its cutoff");
+}
+
 } // namespace
 
 bool fits_into_constants(const Sampler& sampler) {
@@ -270,6 +284,7 @@ Plan make_plan(const Scene& scene, const PlanSettings& settings, SunCache& suns)
     add_instances(scene, plan, suns);
     add_map_sets(plan);
     add_classes(scene, plan);
+    warn_of_nothing_drawn(scene, plan);
     if (!scene.environment) plan.warnings.push_back("the scene has no environment: only emission is seen");
     if (plan.has_tangent && std::holds_alternative<Prefiltered>(settings.sampler))
         plan.warnings.push_back(

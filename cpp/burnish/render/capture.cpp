@@ -12,10 +12,10 @@ namespace {
 
 /// A camera sees a face mirrored: cubes are looked at from inside in a left-handed order. So what lies to the
 /// right on a face lies to the left of its camera.
-Camera face_camera(const FaceAxes& axes, glm::vec3 point, float near_plane) {
+Camera face_camera(const FaceAxes& axes, glm::dvec3 point, float near_plane) {
     Camera camera;
-    camera.world_from_camera = glm::mat4(glm::vec4(-axes.right, 0.0), glm::vec4(-axes.down, 0.0),
-                                         glm::vec4(-axes.axis, 0.0), glm::vec4(point, 1.0f));
+    camera.world_from_camera = glm::dmat4(glm::dvec4(-axes.right, 0.0), glm::dvec4(-axes.down, 0.0),
+                                          glm::dvec4(-axes.axis, 0.0), glm::dvec4(point, 1.0));
     camera.vertical_fov = std::numbers::pi_v<float> / 2.0f;
     camera.near_plane = near_plane;
     return camera;
@@ -23,7 +23,7 @@ Camera face_camera(const FaceAxes& axes, glm::vec3 point, float near_plane) {
 
 } // namespace
 
-std::shared_ptr<Environment> capture(Renderer& renderer, const Scene& scene, glm::vec3 point,
+std::shared_ptr<Environment> capture(Renderer& renderer, const Scene& scene, glm::dvec3 point,
                                      uint32_t face_size, std::optional<uint32_t> without_object) {
     if (!std::has_single_bit(face_size) || face_size > 2048)
         throw std::invalid_argument(
@@ -45,7 +45,7 @@ std::shared_ptr<Environment> capture(Renderer& renderer, const Scene& scene, glm
     settings.width = settings.height = face_size;
     settings.plan.has_lobes = false;
     std::vector<float> radiance(size_t(6) * face_size * face_size * 3);
-    const float near_plane = std::max(1e-4f * surroundings.bounds().radius(), 1e-20f);
+    const float near_plane = float(std::max(1e-4 * surroundings.bounds().radius(), 1e-20));
     for (uint32_t face = 0; face < 6; ++face) {
         const Frame frame =
             renderer.render(surroundings, face_camera(face_axes(face), point, near_plane), settings);

@@ -5,6 +5,7 @@
 
 #include <glm/gtc/packing.hpp>
 
+#include "burnish/render/mask_coverage.h"
 #include "burnish/render/octahedral.h"
 #include "burnish/vulkan/device.h"
 #include "burnish/vulkan/transfer.h"
@@ -40,9 +41,24 @@ struct TextureVertex {
 };
 static_assert(sizeof(TextureVertex) == GpuScene::TEXTURE_VERTEX_BYTES);
 
-Vertex pack_vertex(const Mesh& mesh, size_t k) {
+/// What positions are kept relative to: the middle of the mesh's box where that lies far from its origin, so
+/// that products with a matrix keep the digits that the mesh has.
+glm::dvec3 center_of(const Mesh& mesh) {
+    if (mesh.positions.empty()) return glm::dvec3(0.0);
+    glm::dvec3 low(mesh.positions[0]), high(mesh.positions[0]);
+    for (const glm::vec3& position : mesh.positions) {
+        low = glm::min(low, glm::dvec3(position));
+        high = glm::max(high, glm::dvec3(position));
+    }
+    constexpr double FAR_IN_SIZES = 4.0;
+    const glm::dvec3 center = 0.5 * (low + high), away = glm::abs(center);
+    const double size = glm::length(high - low);
+    return std::max({away.x, away.y, away.z}) > FAR_IN_SIZES * size ? center : glm::dvec3(0.0);
+}
+
+Vertex pack_vertex(const Mesh& mesh, size_t k, const glm::dvec3& center) {
     Vertex vertex{};
-    vertex.position = mesh.positions[k];
+    vertex.position = glm::vec3(glm::dvec3(mesh.positions[k]) - center);
     const glm::vec2 octahedral = octahedral_encode(mesh.normals[k]);
     vertex.normal_tangent[0] = int16_t(glm::packSnorm1x16(octahedral.x));
     vertex.normal_tangent[1] = int16_t(glm::packSnorm1x16(octahedral.y));
@@ -145,11 +161,12 @@ void GpuScene::upload_meshes(const vulkan::DevicePointer& device, const Scene& s
     for (const Mesh& mesh : scene.meshes)
         has_texture_vertices_ |= !mesh.uv0.empty() || !mesh.colors.empty();
     for (const Mesh& mesh : scene.meshes) {
-        meshes_.push_back(
-            {uint32_t(indices.size()), uint32_t(mesh.indices.size()), int32_t(vertices.size())});
+        meshes_.push_back({uint32_t(indices.size()), uint32_t(mesh.indices.size()), int32_t(vertices.size()),
+                           center_of(mesh)});
+        MeshRange& range = meshes_.back();
         for (size_t k = 0; k < mesh.positions.size(); ++k) {
-            vertices.push_back(pack_vertex(mesh, k));
-            meshes_.back().reach = glm::max(meshes_.back().reach, glm::abs(mesh.positions[k]));
+            vertices.push_back(pack_vertex(mesh, k, range.center));
+            range.reach = glm::max(range.reach, glm::abs(vertices.back().position));
             if (has_texture_vertices_) texture_vertices.push_back(pack_texture_vertex(mesh, k));
         }
         indices.insert(indices.end(), mesh.indices.begin(), mesh.indices.end());
@@ -169,33 +186,39 @@ void GpuScene::upload_meshes(const vulkan::DevicePointer& device, const Scene& s
 uint64_t GpuScene::memory_bytes() const {
     uint64_t bytes = vertices_.size_bytes() + texture_vertices_.size_bytes() + indices_.size_bytes();
     for (const TextureImage& picture : pictures_)
-        bytes += 4 * picture.rgba.size(); // here, and with 4/3 for its levels twice on the device
+        bytes += 5 * picture.rgba.size(); // here, and with 4/3 for its levels in three forms on the device
     return bytes;
 }
 
-vulkan::Image GpuScene::upload_image(const TextureImage& picture, bool is_srgb) const {
+vulkan::Image GpuScene::upload_image(const TextureUse& use, bool is_srgb,
+                                     std::optional<float> mask_cutoff) const {
+    const TextureImage white{"white", 1, 1, {255, 255, 255, 255}};
+    const TextureImage& picture = use.is_used() ? pictures_[size_t(use.image)] : white;
     vulkan::ImageSettings settings;
     settings.format = is_srgb ? VK_FORMAT_R8G8B8A8_SRGB : VK_FORMAT_R8G8B8A8_UNORM;
     settings.width = picture.width;
     settings.height = picture.height;
     settings.levels = vulkan::full_levels(picture.width, picture.height);
     vulkan::Image image(device_, settings);
-    vulkan::upload(image, {}, std::as_bytes(std::span(picture.rgba)), VK_IMAGE_LAYOUT_GENERAL);
+    const std::vector<uint8_t> averaged =
+        mask_cutoff ? with_coverage(picture, use.sampler, *mask_cutoff) : std::vector<uint8_t>{};
+    vulkan::upload(image, {}, std::as_bytes(std::span(mask_cutoff ? averaged : picture.rgba)),
+                   VK_IMAGE_LAYOUT_GENERAL);
     vulkan::Commands commands(device_);
     commands.blit_levels(image);
     commands.transition(image, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
     commands.submit();
+    if (mask_cutoff) vulkan::upload(image, {}, std::as_bytes(std::span(picture.rgba)));
     return image;
 }
 
-BoundTexture GpuScene::texture(const TextureUse& use, bool is_srgb) {
-    const std::pair<int32_t, bool> key(use.is_used() ? use.image : -1, use.is_used() && is_srgb);
+BoundTexture GpuScene::texture(const TextureUse& use, bool is_srgb, std::optional<float> mask_cutoff) {
+    ImageKey key(use.is_used() ? use.image : -1, use.is_used() && is_srgb, 0.0f, {}, {}, {});
+    if (mask_cutoff)
+        key = {use.image, is_srgb, *mask_cutoff, use.sampler.wrap_u, use.sampler.wrap_v, use.sampler.magnify};
     auto image = images_.find(key);
-    if (image == images_.end()) {
-        const TextureImage white{"white", 1, 1, {255, 255, 255, 255}};
-        const TextureImage& picture = use.is_used() ? pictures_[size_t(use.image)] : white;
-        image = images_.emplace(key, upload_image(picture, key.second)).first;
-    }
+    if (image == images_.end())
+        image = images_.emplace(key, upload_image(use, std::get<1>(key), mask_cutoff)).first;
     const std::array<int, 5> sampler_key = {int(use.sampler.wrap_u), int(use.sampler.wrap_v),
                                             int(use.sampler.magnify), int(use.sampler.minify),
                                             int(use.sampler.mip)};

@@ -5,6 +5,8 @@
 #include <array>
 #include <map>
 #include <memory>
+#include <optional>
+#include <tuple>
 #include <vector>
 
 #include "burnish/scene/scene.h"
@@ -18,7 +20,8 @@ struct MeshRange {
     uint32_t first_index = 0;
     uint32_t index_count = 0;
     int32_t vertex_offset = 0;
-    glm::vec3 reach{0.0f}; ///< largest absolute coordinates, object space
+    glm::dvec3 center{0.0}; ///< object space: what the buffer's positions are relative to
+    glm::vec3 reach{0.0f};  ///< largest absolute coordinates relative to it
 };
 
 /// One texture of one material, ready to be bound.
@@ -45,12 +48,13 @@ public:
     /// At most so much memory, of host and device: textures may be uploaded in two encodings.
     uint64_t memory_bytes() const;
 
-    /// The picture decoded from sRGB or not, with mip levels; a white texel for an unused texture.
-    BoundTexture texture(const TextureUse& use, bool is_srgb);
+    /// The picture decoded from sRGB or not, with mip levels; a white texel for an unused texture. With a
+    /// cutoff in (0, 1] alpha of all levels but the first is coverage (mask_coverage.h).
+    BoundTexture texture(const TextureUse& use, bool is_srgb, std::optional<float> mask_cutoff);
 
 private:
     void upload_meshes(const vulkan::DevicePointer& device, const Scene& scene);
-    vulkan::Image upload_image(const TextureImage& picture, bool is_srgb) const;
+    vulkan::Image upload_image(const TextureUse& use, bool is_srgb, std::optional<float> mask_cutoff) const;
 
     vulkan::DevicePointer device_;
     std::vector<TextureImage> pictures_; // uploaded when first used
@@ -58,7 +62,10 @@ private:
     bool has_texture_vertices_ = false;
     uint64_t triangle_count_ = 0;
     std::vector<MeshRange> meshes_;
-    std::map<std::pair<int32_t, bool>, vulkan::Image> images_; // by index (-1 = white) and is_srgb
+    /// By what their texels depend on: index (-1 = white), is_srgb and, of those with coverage, cutoff,
+    /// wrapping and filter.
+    using ImageKey = std::tuple<int32_t, bool, float, WrapMode, WrapMode, TextureFilter>;
+    std::map<ImageKey, vulkan::Image> images_;
     std::map<std::array<int, 5>, vulkan::Sampler> samplers_;
 };
 

@@ -142,7 +142,7 @@ std::optional<Frame> Renderer::draw_once(const Scene& scene, const Camera& camer
     const ShadeInputs inputs{&targets,          nullptr,           uint32_t(pixels),
                              &targets.radiance, &targets.counters, is_fused ? &targets.display : nullptr,
                              display_scale,     counts_non_finite};
-    const SurfacePass surface(pipelines_, gpu_scene, scene, plan, targets);
+    const SurfacePass surface(pipelines_, gpu_scene, scene, plan, camera.world_from_camera[3], targets);
     const ShadePass shade(pipelines_, plan, tables, maps, inputs, placeholders_,
                           reference ? &*reference : nullptr);
     // Into the sum, and the last picture of display output.
@@ -175,6 +175,7 @@ std::optional<Frame> Renderer::draw_once(const Scene& scene, const Camera& camer
     for (uint32_t picture = 0; picture < spp; ++picture) {
         shared::ViewRecord view = make_view(camera, settings.width, settings.height, offsets[picture]);
         view.background_map = 0;
+        view.picture = picture;
         keep_clip_in_range(view, surface.clip_reach(view.clip_from_world));
         vulkan::upload(targets.view, std::span<const shared::ViewRecord>(&view, 1));
         vulkan::Commands commands(device_);

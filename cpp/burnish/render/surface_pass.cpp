@@ -37,9 +37,21 @@ uint32_t texture_mask(const Material& material) {
     return mask;
 }
 
-/// Coverage below which a fragment is dropped; blended materials are drawn as masks at one half.
-float cutoff(const Material& material) {
-    return material.alpha_mode == AlphaMode::blend ? 0.5f : material.alpha_cutoff;
+/// The texel's alpha from which a masked material shows, where mip levels hold the coverage that this makes.
+std::optional<float> texel_cutoff(const Material& material, uint32_t kind) {
+    if (kind != shared::TEXTURE_BASE_COLOR || material.alpha_mode == AlphaMode::opaque) return std::nullopt;
+    if (!material.source || !material.source->base_color_texture.is_used() || !has_coverage(material))
+        return std::nullopt;
+    if (material.source->base_color_texture.sampler.mip == MipFilter::none) return std::nullopt;
+    const float cutoff = coverage_cutoff(material) / material.source->base_color.w;
+    return cutoff > 0.0f && cutoff <= 1.0f ? std::optional(cutoff) : std::nullopt;
+}
+
+/// How a level of the base colour's texture goes over into the next, COVERAGE_LEVELS_*.
+uint32_t coverage_levels(const Material& material, uint32_t kind) {
+    if (!texel_cutoff(material, kind)) return shared::COVERAGE_LEVELS_NONE;
+    const bool is_nearest = material.source->base_color_texture.sampler.mip == MipFilter::nearest;
+    return is_nearest ? shared::COVERAGE_LEVELS_NEAREST : shared::COVERAGE_LEVELS_LINEAR;
 }
 
 shared::SurfaceRecord surface_record(const Material& material, uint32_t texture_begin) {
@@ -47,7 +59,7 @@ shared::SurfaceRecord surface_record(const Material& material, uint32_t texture_
     const float reflectance = (source.ior - 1.0f) / (source.ior + 1.0f);
     shared::SurfaceRecord record{};
     record.base_color = source.base_color;
-    record.emissive = glm::vec4(material.emissive, cutoff(material));
+    record.emissive = glm::vec4(material.emissive, coverage_cutoff(material));
     record.specular = glm::vec4(reflectance * reflectance * source.specular_color, 1.0f) *
                       glm::vec4(1.0f, 1.0f, 1.0f, source.specular);
     record.metallic = source.metallic;
@@ -61,27 +73,25 @@ shared::SurfaceRecord surface_record(const Material& material, uint32_t texture_
     return record;
 }
 
-shared::DrawRecord draw_record(const Object& object, uint32_t instance) {
+shared::DrawRecord draw_record(const Object& object, const MeshRange& range, const glm::dvec3& eye,
+                               uint32_t instance) {
     shared::DrawRecord record{};
-    record.world_from_object = object.world_from_object;
+    const glm::dmat3 m(object.world_from_object);
+    // Relative to the eye before anything is rounded: float32 then has its digits where the picture has them.
+    const glm::dvec3 place = m * range.center + (glm::dvec3(object.world_from_object[3]) - eye);
+    record.world_from_object = glm::mat4(glm::mat3(m));
+    record.world_from_object[3] = glm::vec4(glm::vec3(place), 1.0f);
     // Cofactors instead of the inverse transpose: the same directions, and finite where an axis is scaled to
     // nothing.
-    const glm::mat3 m(object.world_from_object);
-    const float determinant = glm::dot(m[0], glm::cross(m[1], m[2]));
-    const float sign = determinant < 0.0f ? -1.0f : 1.0f;
-    record.normal_from_object_x = glm::vec4(sign * glm::cross(m[1], m[2]), sign);
-    record.normal_from_object_y = glm::vec4(sign * glm::cross(m[2], m[0]), 0.0f);
-    record.normal_from_object_z = glm::vec4(sign * glm::cross(m[0], m[1]), 0.0f);
+    const double sign = glm::determinant(m) < 0.0 ? -1.0 : 1.0;
+    glm::dmat3 cofactors(glm::cross(m[1], m[2]), glm::cross(m[2], m[0]), glm::cross(m[0], m[1]));
     // Their length goes with the square of the scale: bring tiny and huge scenes back to order one.
-    const float largest = std::max({glm::length(glm::vec3(record.normal_from_object_x)),
-                                    glm::length(glm::vec3(record.normal_from_object_y)),
-                                    glm::length(glm::vec3(record.normal_from_object_z))});
-    if (largest > 0.0f) {
-        const glm::vec4 scale(glm::vec3(1.0f / largest), 1.0f);
-        record.normal_from_object_x *= scale;
-        record.normal_from_object_y *= scale;
-        record.normal_from_object_z *= scale;
-    }
+    const double largest =
+        std::max({glm::length(cofactors[0]), glm::length(cofactors[1]), glm::length(cofactors[2])});
+    if (largest > 0.0) cofactors *= sign / largest;
+    record.normal_from_object_x = glm::vec4(glm::vec3(cofactors[0]), float(sign));
+    record.normal_from_object_y = glm::vec4(glm::vec3(cofactors[1]), 0.0f);
+    record.normal_from_object_z = glm::vec4(glm::vec3(cofactors[2]), 0.0f);
     record.material = instance;
     return record;
 }
@@ -142,7 +152,7 @@ FrameTargets::FrameTargets(const vulkan::DevicePointer& device, uint32_t width_p
 }
 
 SurfacePass::SurfacePass(Pipelines& pipelines, GpuScene& gpu_scene, const Scene& scene, const Plan& plan,
-                         const FrameTargets& targets)
+                         const glm::dvec3& eye, const FrameTargets& targets)
     : gpu_scene_(gpu_scene), has_varying_(plan.has_varying), has_tangent_(plan.has_tangent) {
     for (const MaterialInstance& instance : plan.instances)
         has_tangent_ |= has_texture(scene.materials[instance.material], &MetallicRoughness::normal_texture);
@@ -151,16 +161,15 @@ SurfacePass::SurfacePass(Pipelines& pipelines, GpuScene& gpu_scene, const Scene&
         const Object& object = scene.objects[k];
         const Material& material = scene.materials[object.material];
         const uint32_t instance = plan.object_instance[k];
-        const bool is_varying = plan.classes[plan.instances[instance].shade_class].traits.has_varying;
-        const float coverage = material.source ? material.source->base_color.a : 1.0f;
-        if (!is_varying && material.alpha_mode != AlphaMode::opaque && coverage < cutoff(material)) continue;
-        const shared::DrawRecord record = draw_record(object, instance);
+        if (!has_coverage(material)) continue;
+        const MeshRange& range = gpu_scene_.mesh(object.mesh);
+        const shared::DrawRecord record = draw_record(object, range, eye, instance);
         // In a wide G-buffer every material is drawn by the varying shader, so that all targets are written.
         const vulkan::GraphicsPipeline& pipeline =
             pipeline_for(pipelines, material, has_varying_, record.normal_from_object_x.w < 0.0f);
         const vulkan::DescriptorSet& set =
             set_for(pipeline, material, has_varying_ ? object.material : 0, has_varying_, targets);
-        draws_.push_back({&pipeline, &set, record, gpu_scene_.mesh(object.mesh)});
+        draws_.push_back({&pipeline, &set, record, range});
     }
 }
 
@@ -173,7 +182,8 @@ void SurfacePass::add_records(const vulkan::DevicePointer& device, const Scene& 
         for (const TextureSlot& slot : TEXTURE_SLOTS) {
             const TextureUse use = material.source ? *material.source.*slot.use : TextureUse{};
             const glm::mat2& m = use.uv_scale_rotation;
-            textures.push_back({glm::vec4(m[0], m[1]), use.uv_offset, use.uv_set, 0});
+            textures.push_back(
+                {glm::vec4(m[0], m[1]), use.uv_offset, use.uv_set, coverage_levels(material, slot.kind)});
         }
     }
     if (surfaces.empty()) {
@@ -205,6 +215,7 @@ const vulkan::GraphicsPipeline& SurfacePass::pipeline_for(Pipelines& pipelines, 
     if (is_varying)
         settings.constants.set(shared::SPEC_TEXTURES, texture_mask(material))
             .set(shared::SPEC_VERTEX_COLOR, material.source && material.source->has_vertex_color)
+            .set(shared::SPEC_UNLIT, material.source && material.source->is_unlit)
             .set(shared::SPEC_ALPHA_MASK, material.alpha_mode != AlphaMode::opaque);
     const std::string key =
         std::string(is_mirrored ? "mirrored " : "") + (has_texture_vertices ? "textured" : "");
@@ -224,7 +235,8 @@ const vulkan::DescriptorSet& SurfacePass::set_for(const vulkan::GraphicsPipeline
     set.bind(shared::BINDING_SURFACE_TEXTURE_RECORDS, texture_records_);
     for (const TextureSlot& slot : TEXTURE_SLOTS) {
         const BoundTexture texture =
-            gpu_scene_.texture(material.source ? *material.source.*slot.use : TextureUse{}, slot.is_srgb);
+            gpu_scene_.texture(material.source ? *material.source.*slot.use : TextureUse{}, slot.is_srgb,
+                               texel_cutoff(material, slot.kind));
         set.bind(shared::BINDING_SURFACE_TEXTURES, texture.image->view(), *texture.sampler,
                  VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, slot.kind);
     }

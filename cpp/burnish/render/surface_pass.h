@@ -37,8 +37,9 @@ struct FrameTargets {
 /// Descriptors and pipelines of all draws of a plan; lives while its commands may run.
 class SurfacePass {
 public:
+    /// `eye`: the camera's place, which all draws are relative to.
     SurfacePass(Pipelines& pipelines, GpuScene& gpu_scene, const Scene& scene, const Plan& plan,
-                const FrameTargets& targets);
+                const glm::dvec3& eye, const FrameTargets& targets);
     void record(vulkan::Commands& commands, FrameTargets& targets) const;
 
     /// What no coordinate of a corner in clip space exceeds, as seen by `clip_from_world`.

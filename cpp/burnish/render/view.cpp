@@ -8,7 +8,8 @@ namespace burnish::render {
 
 shared::ViewRecord make_view(const Camera& camera, uint32_t width, uint32_t height, glm::vec2 jitter_px) {
     const float aspect = float(width) / float(height);
-    const glm::mat3 rotation(camera.world_from_camera);
+    const glm::dmat3 world_axes(camera.world_from_camera);
+    const glm::mat3 rotation(world_axes);
     const float half_height =
         camera.is_orthographic ? camera.half_height : std::tan(0.5f * camera.vertical_fov);
     const glm::vec2 half = {half_height * aspect, half_height};
@@ -32,9 +33,9 @@ shared::ViewRecord make_view(const Camera& camera, uint32_t width, uint32_t heig
     shift[3][1] = -2.0f * jitter_px.y / float(height);
 
     shared::ViewRecord view{};
-    // Multiplied in double: a far camera's translation would eat the digits of a small scene.
+    // The eye is the origin: a far camera's translation would eat the digits of a small scene.
     view.clip_from_world =
-        glm::mat4(glm::dmat4(shift) * glm::dmat4(clip) * glm::inverse(glm::dmat4(camera.world_from_camera)));
+        glm::mat4(glm::dmat4(shift) * glm::dmat4(clip) * glm::inverse(glm::dmat4(world_axes)));
     const glm::vec3 right =
         camera.is_orthographic ? glm::vec3(0.0f) : rotation[0] * (2.0f * half.x / float(width));
     const glm::vec3 down =

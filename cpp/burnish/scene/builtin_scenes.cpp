@@ -44,10 +44,10 @@ Scene Scene::spheres(const std::vector<Material>& materials, uint32_t columns) {
         scene.materials.push_back(materials[i]);
         float x = static_cast<float>(i % columns) - 0.5f * static_cast<float>(used_columns - 1);
         float y = 0.5f * static_cast<float>(rows - 1) - static_cast<float>(i / columns);
-        scene.objects.push_back(
-            {.name = message("sphere.", i),
-             .material = i,
-             .world_from_object = glm::translate(glm::mat4(1.0f), SPHERE_SPACING * glm::vec3(x, y, 0))});
+        scene.objects.push_back({.name = message("sphere.", i),
+                                 .material = i,
+                                 .world_from_object = glm::translate(
+                                     glm::dmat4(1.0), double(SPHERE_SPACING) * glm::dvec3(x, y, 0))});
     }
     return scene;
 }

@@ -6,35 +6,35 @@
 
 namespace burnish {
 
-Camera look_at(const glm::vec3& eye, const glm::vec3& target, const glm::vec3& up) {
-    if (!is_finite(eye) || !is_finite(target) || !is_finite(up))
+Camera look_at(const glm::dvec3& eye, const glm::dvec3& target, const glm::dvec3& up) {
+    if (!is_finite(glm::vec3(eye)) || !is_finite(glm::vec3(target)) || !is_finite(glm::vec3(up)))
         throw std::invalid_argument("eye, target, up: expected finite numbers, got a non-finite one");
-    glm::dvec3 backward = glm::dvec3(eye) - glm::dvec3(target);
+    glm::dvec3 backward = eye - target;
     double distance = glm::length(backward);
     if (!(distance > 0.0))
         throw std::invalid_argument("target: expected a point other than eye, got the same point");
     backward /= distance;
-    glm::dvec3 right = glm::cross(glm::dvec3(up), backward);
+    glm::dvec3 right = glm::cross(up, backward);
     double sine = glm::length(right);
-    if (!(sine > 1e-6 * glm::length(glm::dvec3(up))))
+    if (!(sine > 1e-6 * glm::length(up)))
         throw std::invalid_argument("up: expected a direction across the view, got one along it or zero");
     right /= sine;
     Camera camera;
     camera.world_from_camera =
-        glm::mat4(glm::vec4(glm::vec3(right), 0.0f), glm::vec4(glm::vec3(glm::cross(backward, right)), 0.0f),
-                  glm::vec4(glm::vec3(backward), 0.0f), glm::vec4(eye, 1.0f));
+        glm::dmat4(glm::dvec4(right, 0.0), glm::dvec4(glm::cross(backward, right), 0.0),
+                   glm::dvec4(backward, 0.0), glm::dvec4(eye, 1.0));
     return camera;
 }
 
 void validate(const Camera& camera) {
-    const glm::mat4& m = camera.world_from_camera;
-    glm::mat3 rotation(m);
-    glm::mat3 product = glm::transpose(rotation) * rotation;
-    bool is_rigid = is_finite(m) && m[0].w == 0.0f && m[1].w == 0.0f && m[2].w == 0.0f && m[3].w == 1.0f &&
-                    glm::determinant(rotation) > 0.0f;
+    const glm::dmat4& m = camera.world_from_camera;
+    glm::dmat3 rotation(m);
+    glm::dmat3 product = glm::transpose(rotation) * rotation;
+    bool is_rigid = is_finite(glm::mat4(m)) && m[0].w == 0.0 && m[1].w == 0.0 && m[2].w == 0.0 &&
+                    m[3].w == 1.0 && glm::determinant(rotation) > 0.0;
     for (int column = 0; column < 3; ++column)
         for (int row = 0; row < 3; ++row)
-            is_rigid = is_rigid && std::abs(product[column][row] - (row == column ? 1.0f : 0.0f)) < 1e-3f;
+            is_rigid = is_rigid && std::abs(product[column][row] - (row == column ? 1.0 : 0.0)) < 1e-3;
     if (!is_rigid)
         throw std::invalid_argument(
             "world_from_camera: expected a rotation and a translation, got another matrix");

@@ -9,7 +9,7 @@ namespace burnish {
 
 struct Camera {
     std::string name;
-    glm::mat4 world_from_camera{1.0f}; ///< rigid: rotation and translation only
+    glm::dmat4 world_from_camera{1.0}; ///< rigid: rotation and translation only
     bool is_orthographic = false;
     float vertical_fov = 0.8f; ///< radians, in (0, pi); perspective only
     float half_height = 1.0f;  ///< > 0; orthographic only
@@ -19,7 +19,7 @@ struct Camera {
 
 /// A perspective camera at `eye` that looks at `target`, `up` upward in its picture.
 /// Throws std::invalid_argument where the three do not span a view.
-Camera look_at(const glm::vec3& eye, const glm::vec3& target, const glm::vec3& up);
+Camera look_at(const glm::dvec3& eye, const glm::dvec3& target, const glm::dvec3& up);
 
 /// Throws std::invalid_argument, naming field, rule and value, unless every number is in its documented
 /// range.

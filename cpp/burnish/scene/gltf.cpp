@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <set>
 
-#include <glm/gtc/quaternion.hpp>
+#include <glm/gtc/matrix_transform.hpp>
 
 #include "burnish/error.h"
 #include "burnish/scene/check.h"
@@ -15,42 +15,30 @@ namespace {
 
 constexpr size_t MAX_WARNINGS = 200;
 
-glm::dmat4 local_transform(const tinygltf::Node& node) {
-    glm::dmat4 matrix(1.0);
-    if (node.matrix.size() == 16) {
-        for (int i = 0; i < 16; ++i)
-            matrix[i / 4][i % 4] = node.matrix[i];
-        return matrix;
-    }
-    if (node.rotation.size() == 4) {
-        glm::dquat rotation(node.rotation[3], node.rotation[0], node.rotation[1], node.rotation[2]);
-        double length = glm::length(rotation);
-        if (length > 0.0) matrix = glm::mat4_cast(rotation / length);
-    }
-    if (node.scale.size() == 3)
-        for (int column = 0; column < 3; ++column)
-            matrix[column] *= node.scale[column];
-    if (node.translation.size() == 3)
-        matrix[3] = {node.translation[0], node.translation[1], node.translation[2], 1.0};
-    return matrix;
-}
-
 class SceneBuilder {
 public:
     SceneBuilder(const Document& document, Scene& scene)
-        : document_(document), scene_(scene), reader_(document), materials_(document, reader_, scene) {}
+        : document_(document), scene_(scene), reader_(document), materials_(document, reader_, scene),
+          nodes_(document) {}
 
     void build() {
+        const tinygltf::Model& model = document_.model;
+        if (!model.scenes.empty()) scene_.name = model.scenes[std::max(model.defaultScene, 0)].name;
         materials_.load();
-        check_tree();
-        for (int root : roots())
-            visit(root);
+        for (const int node : nodes_.drawn())
+            visit(node);
+        const auto has_triangles = [&](const Object& object) {
+            return !scene_.meshes[object.mesh].indices.empty();
+        };
+        if (std::none_of(scene_.objects.begin(), scene_.objects.end(), has_triangles))
+            scene_.warnings.push_back("nothing is drawn: no node of the scene has a mesh with triangles");
         make_names_unique();
     }
 
 private:
     struct Part {
         uint32_t mesh, material;
+        bool is_skinned;
     };
 
     std::string node_name(int index) const {
@@ -58,100 +46,66 @@ private:
         return name.empty() ? message("node.", index) : name;
     }
 
-    /// glTF demands a forest: every node at most once a child, no cycle.
-    void check_tree() {
-        const std::vector<tinygltf::Node>& nodes = document_.model.nodes;
-        std::vector<int> parent(nodes.size(), -1);
-        for (size_t i = 0; i < nodes.size(); ++i) {
-            for (int child : nodes[i].children) {
-                if (parent[child] != -1)
-                    throw FileError(document_.path,
-                                    message("nodes[", child, "]: expected one parent, got nodes[",
-                                            parent[child], "] and nodes[", i, "]"));
-                parent[child] = static_cast<int>(i);
-            }
-        }
-        // With one parent each, a node belongs to a cycle exactly if no root reaches it.
-        std::vector<int> reached;
-        for (size_t i = 0; i < nodes.size(); ++i)
-            if (parent[i] == -1) reached.push_back(static_cast<int>(i));
-        roots_ = reached;
-        for (size_t i = 0; i < reached.size(); ++i)
-            reached.insert(reached.end(), nodes[reached[i]].children.begin(),
-                           nodes[reached[i]].children.end());
-        if (reached.size() == nodes.size()) return;
-        std::set<int> outside(reached.begin(), reached.end());
-        for (size_t i = 0; i < nodes.size(); ++i)
-            if (!outside.count(static_cast<int>(i)))
-                throw FileError(
-                    document_.path,
-                    message("nodes[", i, "]: expected a tree, got a node among its own descendants"));
+    void visit(int index) {
+        const tinygltf::Node& node = document_.model.nodes[index];
+        const glm::dmat4& world_from_node = nodes_.world_from_node(index);
+        require_affine(document_, world_from_node, message("nodes[", index, "]"));
+        if (node.mesh >= 0) add_objects(index, world_from_node);
+        if (node.camera >= 0) add_camera(index, world_from_node);
     }
 
-    std::vector<int> roots() {
-        const tinygltf::Model& model = document_.model;
-        if (model.scenes.empty()) return roots_;
-        const tinygltf::Scene& chosen = model.scenes[std::max(model.defaultScene, 0)];
-        scene_.name = chosen.name;
-        std::set<int> seen;
-        for (int root : chosen.nodes)
-            if (!seen.insert(root).second || !std::count(roots_.begin(), roots_.end(), root))
-                throw FileError(document_.path,
-                                message("scenes.nodes: expected each root node once, got nodes[", root, "]"));
-        return chosen.nodes;
-    }
-
-    /// Depth first without recursion: a chain of nodes may be long.
-    void visit(int root) {
-        std::vector<std::pair<int, glm::dmat4>> stack = {{root, glm::dmat4(1.0)}};
-        while (!stack.empty()) {
-            auto [index, world_from_parent] = stack.back();
-            stack.pop_back();
-            const tinygltf::Node& node = document_.model.nodes[index];
-            glm::dmat4 world_from_node = world_from_parent * local_transform(node);
-            glm::mat4 rounded(world_from_node);
-            if (!is_finite(rounded) || rounded[0].w != 0.0f || rounded[1].w != 0.0f || rounded[2].w != 0.0f ||
-                rounded[3].w != 1.0f)
-                throw FileError(
-                    document_.path,
-                    message("nodes[", index, "]: expected a finite affine transform, got another"));
-            if (node.mesh >= 0) add_objects(index, rounded);
-            if (node.camera >= 0) add_camera(index, world_from_node);
-            for (auto child = node.children.rbegin(); child != node.children.rend(); ++child)
-                stack.emplace_back(*child, world_from_node);
+    void add_objects(int index, const glm::dmat4& world_from_node) {
+        const tinygltf::Node& node = document_.model.nodes[index];
+        const std::vector<Part>& parts = parts_of(node.mesh, node.skin);
+        const std::vector<glm::dmat4> instances = node_from_instances(document_, reader_, index);
+        if (scene_.objects.size() + parts.size() * instances.size() > MAX_OBJECTS)
+            throw FileError(document_.path,
+                            message("nodes: expected at most ", MAX_OBJECTS, " objects, got more"));
+        for (const glm::dmat4& node_from_instance : instances) {
+            const glm::dmat4 world_from_instance = world_from_node * node_from_instance;
+            require_affine(document_, world_from_instance, message("nodes[", index, "]'s instances"));
+            for (size_t i = 0; i < parts.size(); ++i)
+                scene_.objects.push_back(
+                    {.name = parts.size() == 1 ? node_name(index) : message(node_name(index), ".", i),
+                     .mesh = parts[i].mesh,
+                     .material = parts[i].material,
+                     // Joints place a skinned mesh in the world, whatever its node does.
+                     .world_from_object = parts[i].is_skinned
+                                              ? glm::translate(glm::dmat4(1.0), skins_.at(node.skin).origin())
+                                              : world_from_instance});
         }
     }
 
-    void add_objects(int index, const glm::mat4& world_from_object) {
-        const std::vector<Part>& parts = parts_of(document_.model.nodes[index].mesh);
-        std::string name = node_name(index);
-        for (size_t i = 0; i < parts.size(); ++i) {
-            if (scene_.objects.size() >= MAX_OBJECTS)
-                throw FileError(document_.path,
-                                message("nodes: expected at most ", MAX_OBJECTS, " objects, got more"));
-            scene_.objects.push_back({.name = parts.size() == 1 ? name : message(name, ".", i),
-                                      .mesh = parts[i].mesh,
-                                      .material = parts[i].material,
-                                      .world_from_object = world_from_object});
-        }
+    const Skin* skin_of(int index) {
+        if (index < 0) return nullptr;
+        auto known = skins_.find(index);
+        if (known == skins_.end())
+            known = skins_.emplace(index, Skin(document_, reader_, nodes_, index)).first;
+        return &known->second;
     }
 
-    /// The meshes of a file's mesh, loaded on first use and shared by all nodes that place it.
-    const std::vector<Part>& parts_of(int mesh_index) {
-        auto known = parts_.find(mesh_index);
+    /// The meshes of a file's mesh, loaded on first use and shared by all nodes that place it by the same
+    /// skin, or by none (-1).
+    const std::vector<Part>& parts_of(int mesh_index, int skin_index) {
+        auto known = parts_.find({mesh_index, skin_index});
         if (known != parts_.end()) return known->second;
-        std::vector<Part>& parts = parts_[mesh_index];
+        std::vector<Part>& parts = parts_[{mesh_index, skin_index}];
+        const Skin* skin = skin_of(skin_index);
         const tinygltf::Mesh& from = document_.model.meshes[mesh_index];
         for (size_t i = 0; i < from.primitives.size(); ++i) {
             std::string where = message("meshes[", mesh_index, "].primitives[", i, "]");
             std::optional<Mesh> mesh =
-                load_primitive(document_, reader_, from.primitives[i], where, scene_.warnings);
+                load_primitive(document_, reader_, from.primitives[i], skin, where, scene_.warnings);
             if (!mesh) continue;
+            const bool is_skinned = skin && has_joints(from.primitives[i]);
+            if (skin && !is_skinned)
+                scene_.warnings.push_back(where + ": its node has a skin, but it has no JOINTS_0: placed by "
+                                                  "the node alone");
             uint32_t material = materials_.find(from.primitives[i].material, !mesh->colors.empty());
             complete_mesh(*mesh, scene_.materials[material], reader_, where, scene_.warnings);
             std::string name = from.name.empty() ? message("mesh.", mesh_index) : from.name;
             mesh->name = from.primitives.size() == 1 ? name : message(name, ".", i);
-            parts.push_back({static_cast<uint32_t>(scene_.meshes.size()), material});
+            parts.push_back({static_cast<uint32_t>(scene_.meshes.size()), material, is_skinned});
             scene_.meshes.push_back(std::move(*mesh));
         }
         return parts;
@@ -170,11 +124,9 @@ private:
             return;
         }
         try {
-            glm::dvec3 eye(world_from_node[3]);
             camera.world_from_camera =
-                look_at(glm::vec3(0.0f), glm::vec3(-glm::normalize(backward)), glm::vec3(up))
-                    .world_from_camera;
-            camera.world_from_camera[3] = glm::vec4(glm::vec3(eye), 1.0f);
+                look_at(glm::dvec3(0.0), -glm::normalize(backward), up).world_from_camera;
+            camera.world_from_camera[3] = world_from_node[3];
             camera.is_orthographic = from.type == "orthographic";
             if (camera.is_orthographic) {
                 camera.half_height = static_cast<float>(std::abs(from.orthographic.ymag));
@@ -207,8 +159,9 @@ private:
     Scene& scene_;
     AccessorReader reader_;
     MaterialLoader materials_;
-    std::vector<int> roots_;
-    std::map<int, std::vector<Part>> parts_;
+    const NodeTree nodes_;
+    std::map<int, Skin> skins_;
+    std::map<std::pair<int, int>, std::vector<Part>> parts_;
 };
 
 void tidy_warnings(std::vector<std::string>& warnings) {

@@ -76,8 +76,10 @@ uint32_t AccessorReader::components(int accessor) const {
         return 3;
     case TINYGLTF_TYPE_VEC4:
         return 4;
+    case TINYGLTF_TYPE_MAT4:
+        return 16;
     default:
-        return 0; // matrices: no attribute is one
+        return 0; // smaller matrices: nothing that is read has them
     }
 }
 

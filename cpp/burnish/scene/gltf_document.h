@@ -44,8 +44,8 @@ Container read_container(const std::string& path);
 /// Parses and checks the JSON; throws FileError that names the property, the rule and the value.
 Document parse_document(const std::string& path, const std::string& json);
 
-/// Bytes behind a URI: base64 data, or a file in or below the folder. Throws std::runtime_error with the
-/// reason.
+/// Bytes behind a URI: base64 data, or a file in or below the folder, links followed. Throws
+/// std::runtime_error with the reason.
 std::vector<uint8_t> read_uri(const std::filesystem::path& folder, const std::string& uri,
                               uint64_t max_bytes);
 

@@ -110,7 +110,8 @@ std::string decode_percent(const std::string& uri) {
     return text;
 }
 
-/// A file may only refer to its own folder and what lies below.
+/// A file may only refer to its own folder and what lies below: the rule for the name, before it is looked
+/// up.
 void require_inside(const std::string& name) {
     if (name.find('\0') != std::string::npos)
         throw std::runtime_error("expected a file name, got one with a zero byte");
@@ -119,6 +120,21 @@ void require_inside(const std::string& name) {
         throw std::runtime_error("expected a relative file name or base64 data, got another scheme");
     if (name.front() == '/' || name.front() == '\\' || *fs::path(name).lexically_normal().begin() == "..")
         throw std::runtime_error("expected a file in or below the scene's folder, got one outside");
+}
+
+/// The same rule for what the name leads to: the path without links, which must lie below the folder without
+/// links. The scene's own file may be a link, its folder is that of the name it was asked for by.
+fs::path require_inside(const fs::path& folder, const fs::path& path) {
+    std::error_code code;
+    const fs::path root = fs::canonical(folder.empty() ? fs::path(".") : folder, code);
+    if (code) throw std::runtime_error(code.message());
+    const fs::path target = fs::canonical(path, code);
+    if (code == std::errc::no_such_file_or_directory) throw std::runtime_error("no such file");
+    if (code) throw std::runtime_error(code.message());
+    const auto [end, ignored] = std::mismatch(root.begin(), root.end(), target.begin(), target.end());
+    if (end != root.end())
+        throw std::runtime_error("expected a file in or below the scene's folder, got a link to one outside");
+    return target;
 }
 
 } // namespace
@@ -162,8 +178,8 @@ std::vector<uint8_t> read_uri(const fs::path& folder, const std::string& uri, ui
     // sign.
     fs::path decoded = folder / fs::path(name), verbatim = folder / fs::path(uri);
     std::error_code code;
-    return read_file(fs::exists(decoded, code) || !fs::exists(verbatim, code) ? decoded : verbatim,
-                     max_bytes);
+    const bool is_decoded = fs::exists(decoded, code) || !fs::exists(verbatim, code);
+    return read_file(require_inside(folder, is_decoded ? decoded : verbatim), max_bytes);
 }
 
 void load_buffers(Document& document, Container& container) {

@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <set>
 
 #include <nlohmann/json.hpp>
 
 #include "burnish/error.h"
 #include "burnish/scene/gltf_document.h"
+#include "burnish/scene/gltf_extensions.h"
 #include "burnish/scene/gltf_schema.h"
 
 namespace burnish::gltf {
@@ -20,11 +20,6 @@ constexpr size_t MAX_DEPTH = 64;
 constexpr long long MAX_COUNT = 2147483647;
 constexpr size_t MAX_ENTITIES = 1u << 17; ///< of one kind; tinygltf's structures take up to 2 KB each
 constexpr size_t MAX_NODES = 1u << 19;
-
-const std::set<std::string> SUPPORTED = {
-    "KHR_materials_specular",          "KHR_materials_ior",    "KHR_materials_clearcoat",
-    "KHR_materials_anisotropy",        "KHR_materials_unlit",  "KHR_texture_transform",
-    "KHR_materials_emissive_strength", "KHR_mesh_quantization"};
 
 /// Bounds nesting and the number of values before anything is built from the text.
 void scan(const std::string& path, const std::string& text) {
@@ -206,20 +201,8 @@ void check_version(const std::string& path, const json& asset) {
         throw FileError(path, "asset.minVersion: expected at most 2.0, got \"" + minimum + "\"");
 }
 
-void check_extensions(Document& document, const json& root) {
-    std::string refused;
-    for (const std::string& name : root.value("extensionsRequired", std::vector<std::string>{}))
-        if (!SUPPORTED.count(name)) refused += (refused.empty() ? "" : ", ") + name;
-    if (!refused.empty())
-        throw FileError(document.path,
-                        "extensionsRequired: expected only extensions Burnish knows, got " + refused);
-    for (const std::string& name : root.value("extensionsUsed", std::vector<std::string>{}))
-        if (!SUPPORTED.count(name) &&
-            !std::count(document.ignored_extensions.begin(), document.ignored_extensions.end(), name))
-            document.ignored_extensions.push_back(name);
-}
-
-/// Takes buffers and pictures out of the JSON, so that tinygltf opens no files and decodes nothing.
+/// Takes buffers and pictures out of the JSON, so that tinygltf opens no files and decodes nothing, and
+/// skins, of which it demands inverse bind matrices.
 void move_sources(Document& document, json& root) {
     for (json& buffer : root.value("buffers", json::array())) {
         document.buffer_bytes.push_back(buffer["byteLength"]);
@@ -233,6 +216,12 @@ void move_sources(Document& document, json& root) {
         entry.name = image.value("name", "");
         entry.bufferView = image.value("bufferView", -1);
         document.model.images.push_back(std::move(entry));
+    }
+    for (json& skin : root.value("skins", json::array())) {
+        tinygltf::Skin entry;
+        entry.inverseBindMatrices = skin.value("inverseBindMatrices", -1);
+        entry.joints = skin["joints"].get<std::vector<int>>();
+        document.model.skins.push_back(std::move(entry));
     }
     for (const char* name : {"buffers", "images", "skins", "animations"})
         root.erase(name);
@@ -271,11 +260,10 @@ Document parse_document(const std::string& path, const std::string& text) {
     if (!root.is_object()) throw FileError(path, "JSON: expected an object, got another value");
     Checker(path, root).check_members(root, root_properties(), "");
     check_version(path, root["asset"]);
-    check_extensions(document, root);
+    const std::vector<std::string> none;
+    check_extensions(document, root.value("extensionsRequired", none), root.value("extensionsUsed", none));
     if (root.count("animations") && !root["animations"].empty())
         document.warnings.push_back("animations are not played: the scene is drawn as it stands");
-    if (root.count("skins") && !root["skins"].empty())
-        document.warnings.push_back("skins are not applied: meshes are drawn in their base pose");
     move_sources(document, root);
     std::vector<std::vector<int>> indices = take_indices(root);
 
@@ -297,6 +285,7 @@ Document parse_document(const std::string& path, const std::string& text) {
             structure.meshes.at(mesh).primitives.at(primitive).indices = indices[mesh][primitive];
     structure.buffers = std::move(document.model.buffers);
     structure.images = std::move(document.model.images);
+    structure.skins = std::move(document.model.skins);
     document.model = std::move(structure);
     return document;
 }

@@ -8,6 +8,9 @@
 namespace burnish::gltf {
 namespace {
 
+/// Stands for "no upper limit": sums with 1 and small multiples stay finite.
+constexpr float LARGEST = 3e38f;
+
 const tinygltf::Value* find_extension(const tinygltf::ExtensionMap& extensions, const char* name) {
     auto found = extensions.find(name);
     return found == extensions.end() ? nullptr : &found->second;
@@ -211,10 +214,9 @@ Material MaterialLoader::convert(const tinygltf::Material& from, const std::stri
     if (!from.emissiveFactor.empty())
         material.emissive = bounded(from.emissiveFactor, 1.0f, where + ".emissiveFactor");
     material.double_sided = from.doubleSided;
-    // alphaCutoff above 1 is allowed and means "nothing shows"; 1 differs for full coverage only.
     if (from.alphaMode == "MASK") {
         material.alpha_mode = AlphaMode::mask;
-        material.alpha_cutoff = bounded(from.alphaCutoff, 0.0f, 1.0f, where + ".alphaCutoff");
+        material.alpha_cutoff = bounded(from.alphaCutoff, 0.0f, LARGEST, where + ".alphaCutoff");
     } else if (from.alphaMode == "BLEND") {
         material.alpha_mode = AlphaMode::blend;
         warn(where + ": alphaMode BLEND is drawn as MASK with cutoff 0.5");
@@ -228,10 +230,9 @@ Material MaterialLoader::convert(const tinygltf::Material& from, const std::stri
 void MaterialLoader::read_extensions(const tinygltf::Material& from, Material& material,
                                      const std::string& where) {
     MetallicRoughness& source = *material.source;
-    constexpr float LARGEST = 3e38f;
     if (auto* extension = find_extension(from.extensions, "KHR_materials_ior")) {
         double ior = number_or(*extension, "ior", 1.5);
-        source.ior = ior == 0.0 ? 0.0f : bounded(ior, 1.0f, 1000.0f, where + ".ior");
+        source.ior = ior == 0.0 ? 0.0f : bounded(ior, 1.0f, LARGEST, where + ".ior");
     }
     if (auto* extension = find_extension(from.extensions, "KHR_materials_specular")) {
         source.specular = factor_of(*extension, "specularFactor", 1.0f, 0.0f, 1.0f, where);
@@ -260,10 +261,12 @@ void MaterialLoader::read_extensions(const tinygltf::Material& from, Material& m
     }
     if (find_extension(from.extensions, "KHR_materials_unlit")) {
         // The base colour shines and nothing reflects; its texture stays for the coverage in its alpha.
+        // Vertex colours multiply what shines (`is_unlit`).
         material.emissive = glm::vec3(source.base_color);
         MetallicRoughness dark;
         dark.base_color = glm::vec4(0.0f, 0.0f, 0.0f, source.base_color.w);
         dark.metallic = dark.specular = 0.0f;
+        dark.is_unlit = true;
         dark.base_color_texture = dark.emissive_texture = source.base_color_texture;
         source = dark;
     }

@@ -1,6 +1,7 @@
 #include "burnish/scene/gltf_mesh.h"
 
 #include <algorithm>
+#include <limits>
 
 #include "burnish/error.h"
 #include "burnish/scene/check.h"
@@ -11,8 +12,9 @@ namespace {
 class PrimitiveLoader {
 public:
     PrimitiveLoader(const Document& document, AccessorReader& reader, const tinygltf::Primitive& primitive,
-                    const std::string& where, std::vector<std::string>& warnings)
-        : document_(document), reader_(reader), primitive_(primitive), where_(where), warnings_(warnings) {}
+                    const Skin* skin, const std::string& where, std::vector<std::string>& warnings)
+        : document_(document), reader_(reader), primitive_(primitive), skin_(skin), where_(where),
+          warnings_(warnings) {}
 
     std::optional<Mesh> load() {
         if (primitive_.mode < TINYGLTF_MODE_TRIANGLES) {
@@ -26,6 +28,7 @@ public:
         if (!primitive_.targets.empty()) warn("morph targets are not applied: drawn in its base pose");
         mesh_.positions = read<glm::vec3>("POSITION");
         require_finite(mesh_.positions, "POSITION");
+        warn_of_lost_digits();
         read_triangles();
         if (mesh_.indices.empty()) {
             warn("has no triangles and is not drawn");
@@ -80,6 +83,28 @@ private:
         for (size_t i = 0; i < values.size(); ++i)
             if (!is_finite(values[i]))
                 fail(name, message("expected finite numbers, got a non-finite one at ", i));
+    }
+
+    /// Far from its origin 32-bit floats hold a mesh's shape with few digits, which no reader can bring back.
+    void warn_of_lost_digits() {
+        if (reader_.component_type(primitive_.attributes.at("POSITION")) != TINYGLTF_COMPONENT_TYPE_FLOAT)
+            return;
+        glm::vec3 low(mesh_.positions[0]), high(mesh_.positions[0]);
+        for (const glm::vec3& position : mesh_.positions) {
+            low = glm::min(low, position);
+            high = glm::max(high, position);
+        }
+        const glm::vec3 reach = glm::max(glm::abs(low), glm::abs(high));
+        const double size = glm::length(glm::dvec3(high) - glm::dvec3(low));
+        const float farthest = std::max({reach.x, reach.y, reach.z});
+        const double step =
+            static_cast<double>(std::nextafter(farthest, std::numeric_limits<float>::infinity())) - farthest;
+        constexpr double VISIBLE_STEP = 1e-3; // of the mesh's size: a pixel of a picture that it fills
+        if (size > 0.0 && step > VISIBLE_STEP * size)
+            warn(message("POSITION: ", farthest, " from the mesh's origin 32-bit floats are ", step,
+                         " apart, and the mesh is ", size,
+                         " across: ", std::min(std::floor(std::log10(farthest / size)), 7.0),
+                         " of their 7 decimal digits are lost"));
     }
 
     std::vector<glm::vec2> read_uv(const std::string& name) {
@@ -142,20 +167,24 @@ private:
     }
 
     void read_frames() {
-        if (!primitive_.attributes.count("NORMAL")) {
-            // Flat shading; glTF has given tangents ignored then.
-            constexpr uint64_t BYTES_PER_CORNER =
-                sizeof(glm::vec3) * 2 + sizeof(glm::vec2) * 2 + sizeof(glm::vec4) + 8;
-            reader_.charge(mesh_.indices.size() * BYTES_PER_CORNER, where_);
-            compute_flat_normals(mesh_);
-            return;
+        const bool has_normals = primitive_.attributes.count("NORMAL") > 0;
+        if (has_normals) {
+            mesh_.normals = read<glm::vec3>("NORMAL");
+            repair_normals();
         }
-        mesh_.normals = read<glm::vec3>("NORMAL");
-        repair_normals();
-        if (primitive_.attributes.count("TANGENT")) {
+        if (has_normals && primitive_.attributes.count("TANGENT")) {
             mesh_.tangents = read<glm::vec4>("TANGENT");
             repair_tangents();
         }
+        if (skin_ && has_joints(primitive_))
+            place_by_joints(mesh_, SkinnedVertices(document_, reader_, *skin_, primitive_,
+                                                   mesh_.positions.size(), where_, warnings_));
+        if (has_normals) return;
+        // Flat shading; glTF has given tangents ignored then.
+        constexpr uint64_t BYTES_PER_CORNER =
+            sizeof(glm::vec3) * 2 + sizeof(glm::vec2) * 2 + sizeof(glm::vec4) + 8;
+        reader_.charge(mesh_.indices.size() * BYTES_PER_CORNER, where_);
+        compute_flat_normals(mesh_);
     }
 
     void repair_normals() {
@@ -197,6 +226,7 @@ private:
     const Document& document_;
     AccessorReader& reader_;
     const tinygltf::Primitive& primitive_;
+    const Skin* skin_;
     const std::string& where_;
     std::vector<std::string>& warnings_;
     Mesh mesh_;
@@ -205,9 +235,9 @@ private:
 } // namespace
 
 std::optional<Mesh> load_primitive(const Document& document, AccessorReader& reader,
-                                   const tinygltf::Primitive& primitive, const std::string& where,
-                                   std::vector<std::string>& warnings) {
-    return PrimitiveLoader(document, reader, primitive, where, warnings).load();
+                                   const tinygltf::Primitive& primitive, const Skin* skin,
+                                   const std::string& where, std::vector<std::string>& warnings) {
+    return PrimitiveLoader(document, reader, primitive, skin, where, warnings).load();
 }
 
 void complete_mesh(Mesh& mesh, const Material& material, AccessorReader& reader, const std::string& where,

@@ -105,10 +105,12 @@ Property meshes() {
 }
 
 Property nodes() {
+    const Property instancing = object(
+        "EXT_mesh_gpu_instancing", {{.name = "attributes", .kind = Kind::index_map, .target = "accessors"}});
     return objects("nodes", {text("name"), index("camera", "cameras"), indices("children", "nodes"),
                              index("skin", "skins"), index("mesh", "meshes"), numbers("matrix", 16),
                              numbers("rotation", 4), numbers("scale", 3), numbers("translation", 3),
-                             numbers("weights", 0)});
+                             numbers("weights", 0), object("extensions", {instancing})});
 }
 
 Property cameras() {
@@ -142,8 +144,9 @@ const Properties& root_properties() {
         cameras(),
         objects("scenes", {indices("nodes", "nodes"), text("name")}),
         index("scene", "scenes"),
-        // Only counted: they make a note that the base pose is drawn.
-        objects("skins", {}),
+        objects("skins", {text("name"), index("inverseBindMatrices", "accessors"), index("skeleton", "nodes"),
+                          required(indices("joints", "nodes"))}),
+        // Only counted: they make a note that they are not played.
         objects("animations", {})};
     return properties;
 }

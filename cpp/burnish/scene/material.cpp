@@ -31,6 +31,15 @@ void validate(const MetallicRoughness& source) {
 
 } // namespace
 
+float coverage_cutoff(const Material& material) {
+    return material.alpha_mode == AlphaMode::blend ? 0.5f : material.alpha_cutoff;
+}
+
+bool has_coverage(const Material& material) {
+    const float most = material.source ? material.source->base_color.w : 1.0f;
+    return material.alpha_mode == AlphaMode::opaque || most >= coverage_cutoff(material);
+}
+
 void validate(const KurtLobe& lobe, const std::string& prefix) {
     require_range(prefix + "roughness", lobe.roughness.x, MIN_LOBE_ROUGHNESS, 1.0f);
     require_range(prefix + "roughness", lobe.roughness.y, MIN_LOBE_ROUGHNESS, 1.0f);
@@ -45,7 +54,9 @@ void validate(const KurtLobe& lobe, const std::string& prefix) {
 void validate(const Material& material) {
     require_unit("diffuse", material.diffuse);
     require_non_negative("emissive", material.emissive);
-    require_range("alpha_cutoff", material.alpha_cutoff, 0.0f, 1.0f);
+    if (!(material.alpha_cutoff >= 0.0f) || !std::isfinite(material.alpha_cutoff))
+        throw std::invalid_argument(
+            message("alpha_cutoff: expected a finite number >= 0, got ", material.alpha_cutoff));
     if (material.lobes.size() > MAX_LOBES)
         throw std::invalid_argument(
             message("lobes: expected at most ", MAX_LOBES, ", got ", material.lobes.size()));

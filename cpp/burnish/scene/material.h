@@ -52,6 +52,7 @@ struct MetallicRoughness {
     float normal_scale = 1.0f;
     float occlusion_strength = 1.0f;
     bool has_vertex_color = false;
+    bool is_unlit = false; ///< KHR_materials_unlit: `emissive` is the base colour, nothing reflects
 
     TextureUse base_color_texture;          ///< sRGB
     TextureUse metallic_roughness_texture;  ///< linear, g = roughness, b = metallic
@@ -71,13 +72,18 @@ struct Material {
     std::vector<KurtLobe> lobes;
     glm::vec3 emissive{0.0f}; ///< radiance, >= 0, KHR_materials_emissive_strength multiplied in
     AlphaMode alpha_mode = AlphaMode::opaque;
-    float alpha_cutoff = 0.5f;
+    float alpha_cutoff = 0.5f; ///< >= 0; above 1 nothing shows
     bool double_sided = false;
     /// Set for materials from glTF. `diffuse` and `lobes` hold its factors mapped by
     /// `map_metallic_roughness`; where a texture or vertex colour is in use the surface pass maps again at
     /// every pixel.
     std::optional<MetallicRoughness> source;
 };
+
+/// Coverage below which a fragment is dropped; blended materials are drawn as masks at one half.
+float coverage_cutoff(const Material& material);
+/// Whether some texel or vertex colour may bring it to its cutoff: else nothing of it shows.
+bool has_coverage(const Material& material);
 
 /// Throws std::invalid_argument, naming field, range and value; `prefix` goes before the field's name.
 void validate(const KurtLobe& lobe, const std::string& prefix = "");

@@ -9,24 +9,25 @@
 namespace burnish {
 namespace {
 
+constexpr double LARGEST = std::numeric_limits<float>::max();
+
 struct Box {
-    glm::vec3 low{std::numeric_limits<float>::max()};
-    glm::vec3 high{-std::numeric_limits<float>::max()};
+    glm::dvec3 low{LARGEST};
+    glm::dvec3 high{-LARGEST};
     bool is_empty() const { return low.x > high.x; }
 };
 
 void extend(Box& box, const Scene& scene, const Object& object) {
-    constexpr float LARGEST = std::numeric_limits<float>::max();
     for (const glm::vec3& position : scene.meshes.at(object.mesh).positions) {
-        glm::vec3 world =
-            glm::clamp(glm::vec3(object.world_from_object * glm::vec4(position, 1.0f)), -LARGEST, LARGEST);
+        glm::dvec3 world = glm::clamp(
+            glm::dvec3(object.world_from_object * glm::dvec4(glm::dvec3(position), 1.0)), -LARGEST, LARGEST);
         box.low = glm::min(box.low, world);
         box.high = glm::max(box.high, world);
     }
 }
 
 Bounds bounds_of(const Box& box) {
-    return box.is_empty() ? Bounds{glm::vec3(-1.0f), glm::vec3(1.0f)} : Bounds{box.low, box.high};
+    return box.is_empty() ? Bounds{glm::dvec3(-1.0), glm::dvec3(1.0)} : Bounds{box.low, box.high};
 }
 
 /// Runs a check and puts `where` before its message.
@@ -73,29 +74,31 @@ Bounds Scene::object_bounds(uint32_t object) const {
 }
 
 Camera Scene::default_camera() const {
-    constexpr float FOV = 0.6f, MARGIN = 1.08f;
-    const glm::vec3 toward_eye =
-        glm::normalize(glm::vec3(0.45f, 0.4f, 1.0f)); // three quarters, a little above
-    Bounds box = bounds();
-    glm::vec3 center = 0.5f * box.low + 0.5f * box.high; // not of the sum, which may overflow
-    glm::vec3 half = 0.5f * box.high - 0.5f * box.low;
+    constexpr double FOV = 0.6, MARGIN = 1.08;
+    const glm::dvec3 toward_eye =
+        glm::normalize(glm::dvec3(0.45, 0.4, 1.0)); // three quarters, a little above
+    const Bounds box = bounds();
+    const glm::dvec3 center = box.center(), half = 0.5 * (box.high - box.low);
 
     // The distance from which every corner of the box lies within the square picture of this field of view.
-    Camera axes = look_at(toward_eye, glm::vec3(0.0f), {0, 1, 0});
-    glm::vec3 right(axes.world_from_camera[0]), up(axes.world_from_camera[1]);
-    float spread = std::tan(0.5f * FOV) / MARGIN, distance = 0.0f;
+    Camera axes = look_at(toward_eye, glm::dvec3(0.0), {0, 1, 0});
+    const glm::dvec3 right(axes.world_from_camera[0]), up(axes.world_from_camera[1]);
+    const double spread = std::tan(0.5 * FOV) / MARGIN;
+    double distance = 0.0;
     for (int corner = 0; corner < 8; ++corner) {
-        glm::vec3 offset = half * glm::vec3(corner & 1 ? 1 : -1, corner & 2 ? 1 : -1, corner & 4 ? 1 : -1);
-        float across = std::max(std::abs(glm::dot(offset, right)), std::abs(glm::dot(offset, up)));
+        glm::dvec3 offset = half * glm::dvec3(corner & 1 ? 1 : -1, corner & 2 ? 1 : -1, corner & 4 ? 1 : -1);
+        double across = std::max(std::abs(glm::dot(offset, right)), std::abs(glm::dot(offset, up)));
         distance = std::max(distance, across / spread + glm::dot(offset, toward_eye));
     }
-    // A point, or a world too large to square in float: any view is as good.
-    float largest = std::max({std::abs(center.x), std::abs(center.y), std::abs(center.z), 1e-3f});
-    distance = std::clamp(distance, 1e-5f * largest, 1e18f);
+    // A point, a scene so far away that doubles end, or one too large to square in float: any view is as
+    // good.
+    const double largest = std::max({std::abs(center.x), std::abs(center.y), std::abs(center.z)});
+    const double least = distance > 0.0 ? std::max(1e-12 * largest, 1e-30) : std::max(1e-5 * largest, 1e-8);
+    distance = std::clamp(distance, least, 1e18);
     Camera camera = look_at(center + distance * toward_eye, center, {0, 1, 0});
     camera.name = "default";
-    camera.vertical_fov = FOV;
-    camera.near_plane = 1e-3f * distance;
+    camera.vertical_fov = static_cast<float>(FOV);
+    camera.near_plane = static_cast<float>(1e-3 * distance);
     return camera;
 }
 
@@ -137,7 +140,7 @@ void validate(const Scene& scene) {
         if (object.material >= scene.materials.size())
             throw std::invalid_argument(message(where, "material: expected an index below ",
                                                 scene.materials.size(), ", got ", object.material));
-        if (!is_finite(object.world_from_object))
+        if (!is_finite(glm::mat4(object.world_from_object)))
             throw std::invalid_argument(where +
                                         "world_from_object: expected finite numbers, got a non-finite one");
     }

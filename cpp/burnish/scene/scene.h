@@ -18,18 +18,18 @@ namespace burnish {
 /// One mesh placed in the world.
 struct Object {
     std::string name;
-    uint32_t mesh = 0;     ///< index into Scene::meshes
-    uint32_t material = 0; ///< index into Scene::materials
-    glm::mat4 world_from_object{1.0f};
+    uint32_t mesh = 0;                 ///< index into Scene::meshes
+    uint32_t material = 0;             ///< index into Scene::materials
+    glm::dmat4 world_from_object{1.0}; ///< in double precision: float32 ends a few kilometres from the origin
     /// The map its lobes reflect: null = the scene's environment, else a captured or given one of its own.
     std::shared_ptr<const Environment> reflects = nullptr;
 };
 
 struct Bounds {
-    glm::vec3 low{0.0f};
-    glm::vec3 high{0.0f};
-    glm::vec3 center() const { return 0.5f * (low + high); }
-    float radius() const { return 0.5f * glm::length(high - low); }
+    glm::dvec3 low{0.0};
+    glm::dvec3 high{0.0};
+    glm::dvec3 center() const { return 0.5 * (low + high); }
+    double radius() const { return 0.5 * glm::length(high - low); }
 };
 
 struct Scene {

@@ -44,6 +44,18 @@ def recurrence_2d(index: npt.ArrayLike, seed: npt.ArrayLike) -> Array:
     return unit_from_uint(np.stack(points, axis=-1))
 
 
+def dither(pixel: npt.ArrayLike, picture: npt.ArrayLike) -> Array:
+    """Threshold in [0, 1) of a pixel (..., 2), column and row, in one of several pictures.
+
+    Columns and rows step by the recurrence of the plastic number, pictures by 1/g, g the golden ratio.
+    """
+    pixel = np.asarray(pixel, np.int64)
+    x, y = map(int, recurrence_steps(2))
+    golden = int(recurrence_steps(1)[0])
+    steps = [(pixel[..., 0], x), (pixel[..., 1], y), (np.asarray(picture, np.int64), golden)]
+    return unit_from_uint(sum(index * step % _WORD for index, step in steps) % _WORD)
+
+
 def recurrence_3d_x(index: npt.ArrayLike, seed: npt.ArrayLike) -> IntArray:
     """First coordinate of `recurrence_3d` in units of 2^-32, with all its bits."""
     return _advance(index, int(recurrence_steps(3)[0]), seed, 0x68BC21EB)

@@ -51,6 +51,24 @@ def test_recurrence_3d_x(device, rng):
     np.testing.assert_array_equal(actual, random.recurrence_3d_x(index, seed))
 
 
+def test_dither(device, rng):
+    column, row, picture = (rng.integers(0, end, 20000) for end in (2**14, 2**14, 2**16))
+    actual = probe(device, "dither", np.stack([column, row, picture], -1).astype(np.uint32))[:, 0, 0]
+    np.testing.assert_array_equal(actual, random.dither(np.stack([column, row], -1), picture))
+
+
+def test_dither_spreads_thresholds_over_pixels_and_pictures():
+    pixels = np.stack(np.meshgrid(np.arange(64), np.arange(64), indexing="ij"), -1)
+    shares = np.arange(1, 16) / 16
+    for block in np.lib.stride_tricks.sliding_window_view(random.dither(pixels, 3), (8, 8))[::5, ::5].reshape(
+        -1, 64
+    ):
+        # Independent thresholds would miss by 6 % on average, and by 15 % somewhere.
+        assert np.abs((block[:, None] < shares).mean(0) - shares).max() < 0.08
+    over_pictures = random.dither(np.array([5, 9]), np.arange(16))
+    assert np.abs((over_pictures[:, None] < shares).mean(0) - shares).max() < 0.1
+
+
 def test_points_of_one_seed_fill_the_square_evenly(device):
     count = 4096
     points = probe(device, "recurrence_2d", (np.arange(count), np.full(count, 7)))[:, 0, :2]
