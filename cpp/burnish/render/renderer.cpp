@@ -177,6 +177,8 @@ std::optional<Frame> Renderer::draw_once(const Scene& scene, const Camera& camer
         view.background_map = 0;
         view.picture = picture;
         keep_clip_in_range(view, surface.clip_reach(view.clip_from_world));
+        if (picture == 0 && surface.has_draws() && !surface.may_show(view.clip_from_world))
+            frame.report.warnings.push_back("nothing is drawn: no object lies in the camera's view");
         vulkan::upload(targets.view, std::span<const shared::ViewRecord>(&view, 1));
         vulkan::Commands commands(device_);
         if (picture == 0) shade.record_start(commands);

@@ -243,6 +243,21 @@ const vulkan::DescriptorSet& SurfacePass::set_for(const vulkan::GraphicsPipeline
     return set;
 }
 
+bool SurfacePass::may_show(const glm::mat4& clip_from_world) const {
+    const auto is_outside = [&](const Draw& draw) {
+        const glm::dmat4 clip = glm::dmat4(clip_from_world) * glm::dmat4(draw.record.world_from_object);
+        uint32_t beyond = 0x3f; // of six planes, those that every corner of the box is beyond
+        for (int corner = 0; corner < 8; ++corner) {
+            const glm::dvec3 side(corner & 1 ? 1 : -1, corner & 2 ? 1 : -1, corner & 4 ? 1 : -1);
+            const glm::dvec4 p = clip * glm::dvec4(side * glm::dvec3(draw.range.reach), 1.0);
+            beyond &= uint32_t(p.x < -p.w) | uint32_t(p.x > p.w) << 1 | uint32_t(p.y < -p.w) << 2 |
+                      uint32_t(p.y > p.w) << 3 | uint32_t(p.z < 0.0) << 4 | uint32_t(p.z > p.w) << 5;
+        }
+        return beyond != 0;
+    };
+    return !std::all_of(draws_.begin(), draws_.end(), is_outside);
+}
+
 double SurfacePass::clip_reach(const glm::mat4& clip_from_world) const {
     double largest = 0.0;
     for (const Draw& draw : draws_) {

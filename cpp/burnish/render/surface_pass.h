@@ -42,6 +42,10 @@ public:
                 const glm::dvec3& eye, const FrameTargets& targets);
     void record(vulkan::Commands& commands, FrameTargets& targets) const;
 
+    bool has_draws() const { return !draws_.empty(); }
+    /// Whether some object may lie in the view: false where the boxes of all are outside of it.
+    bool may_show(const glm::mat4& clip_from_world) const;
+
     /// What no coordinate of a corner in clip space exceeds, as seen by `clip_from_world`.
     double clip_reach(const glm::mat4& clip_from_world) const;
 

@@ -146,3 +146,21 @@ def test_matrices_are_given_back_as_they_were(environment):
     np.testing.assert_array_equal(camera.world_from_camera, matrix)
     low, high = scene.objects[0].bounds()
     np.testing.assert_allclose(np.add(low, high) / 2, matrix[:3, 3], rtol=0, atol=1e-6)
+
+
+@pytest.mark.parametrize("orthographic", [False, True], ids=["pinhole", "orthographic"])
+def test_a_camera_that_sees_no_object_says_so(device, environment, orthographic):
+    scene = torus(environment, np.eye(4))
+    make = burnish.Camera.orthographic if orthographic else burnish.Camera.look_at
+    sentence = "nothing is drawn: no object lies in the camera's view"
+    views = [
+        ((0, 0, 5), (0, 0, 9)),
+        ((20, 0, 3), (20, 0, 0)),
+        ((0, 20, 3), (0, 20, 0)),
+        ((0, 0, 5), (0, 0, 0)),
+    ]
+    for number, (eye, target) in enumerate(views):
+        frame = render(device, scene, make(eye, target))
+        sees = number == 3
+        assert (frame.alpha.max() > 0) == sees
+        assert (sentence in frame.report.warnings) == (not sees)
