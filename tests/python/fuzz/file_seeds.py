@@ -191,6 +191,8 @@ def _gltf_document(binary: bytes, is_embedded: bool) -> dict:
                 },
             },
             {"bufferView": 0, "componentType": 5120, "normalized": True, "count": 4, "type": "VEC3"},
+            {"componentType": 5121, "count": 4, "type": "VEC4"},
+            {"bufferView": 0, "componentType": 5126, "count": 2, "type": "MAT4"},
         ],
         "images": [{"bufferView": 2, "mimeType": "image/png"}],
         "samplers": [{"magFilter": 9728, "minFilter": 9987, "wrapS": 33071, "wrapT": 33648}],
@@ -230,16 +232,26 @@ def _gltf_document(binary: bytes, is_embedded: bool) -> dict:
                     {"attributes": {"POSITION": 4, "NORMAL": 5, "TANGENT": 3, "COLOR_0": 3}, "mode": 5},
                     {"attributes": {"POSITION": 0, "NORMAL": 0}, "mode": 6, "material": 1},
                 ]
-            }
+            },
+            {"primitives": [{"attributes": {"POSITION": 0, "JOINTS_0": 6, "WEIGHTS_0": 3}, "mode": 5}]},
         ],
+        "skins": [{"joints": [1, 2]}, {"joints": [1, 2], "inverseBindMatrices": 7}],
         "cameras": [
             {"type": "perspective", "perspective": {"yfov": 1, "znear": 0.1, "zfar": 10}},
             {"type": "orthographic", "orthographic": {"xmag": 1, "ymag": 1, "znear": 0, "zfar": 9}},
         ],
         "nodes": [
-            {"children": [1, 2], "scale": [1, -1, 2], "rotation": [0, 0, 0.6, 0.8], "mesh": 0},
+            {"children": [1, 2, 3], "scale": [1, -1, 2], "rotation": [0, 0, 0.6, 0.8], "mesh": 0},
             {"camera": 0, "matrix": [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 3, 4, 5, 1]},
-            {"camera": 1, "translation": [1, 2, 3], "mesh": 0},
+            {
+                "camera": 1,
+                "translation": [1, 2, 3],
+                "mesh": 0,
+                "extensions": {
+                    "EXT_mesh_gpu_instancing": {"attributes": {"TRANSLATION": 0, "ROTATION": 3, "SCALE": 0}}
+                },
+            },
+            {"mesh": 1, "skin": 0},
         ],
         "scenes": [{"nodes": [0]}],
         "scene": 0,
