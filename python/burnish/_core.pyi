@@ -11,6 +11,11 @@ from burnish._samplers import Matched as Matched
 from burnish._samplers import Prefiltered as Prefiltered
 from burnish._samplers import Reference as Reference
 from burnish._samplers import Regular as Regular
+from burnish._timings import prefilter_times as prefilter_times
+from burnish._timings import pyramid_times as pyramid_times
+from burnish._timings import time_blits as time_blits
+from burnish._timings import time_lookups as time_lookups
+from burnish._timings import time_shading as time_shading
 from burnish.images.source import FilePath as _Path
 from burnish.images.source import PictureFile as _PictureFile
 
@@ -352,11 +357,6 @@ def shade(
 def environment_pyramid(device: Device, environment: Environment, filter: str) -> list[_Float32]: ...
 def environment_prefiltered(device: Device, environment: Environment, filter: str) -> _Prefiltered: ...
 def environment_spherical(device: Device, environment: Environment, filter: str) -> list[_Float32]: ...
-def prefilter_times(
-    device: Device, environment: Environment, filter: str, is_spherical: bool = False
-) -> list[tuple[str, float]]: ...
-def time_blits(device: Device, environment: Environment) -> float: ...
-def pyramid_times(device: Device, environment: Environment, filter: str) -> list[tuple[str, float]]: ...
 def plan(
     scene: Scene,
     sampler: _Sampler,
@@ -385,17 +385,6 @@ def capture(
     face_size: int,
     without_object: int | None,
 ) -> Environment: ...
-def time_lookups(
-    device: Device, environment: Environment, sampler: Regular, roughness: float, repeats: int
-) -> list[float]: ...
-def time_shading(
-    device: Device,
-    scene: Scene,
-    camera: Camera,
-    sampler: _Sampler,
-    has_lookups: bool,
-    has_constants: bool = True,
-) -> dict[str, Any]: ...
 def shared_layout() -> dict[str, dict[str, int]]: ...
 def inject_fault(device: Device, call: str, result: int, skip: int = 0, times: int = 1) -> None: ...
 def probe(device: Device, library: str, function: int, arguments: _Float32) -> _Float32: ...

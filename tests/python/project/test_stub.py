@@ -6,6 +6,8 @@ from pathlib import Path
 from burnish import _core
 
 REPOSITORY = Path(__file__).resolve().parents[3]
+# The first names all that the extension has, and takes what stands in the others from there.
+STUBS = ("_core", "_samplers", "_timings")
 # pybind11 gives every class these; the stub says nothing about them.
 IGNORED = {"__init__", "__repr__", "__str__", "__module__", "__doc__"}
 
@@ -16,7 +18,7 @@ def names_in_stub(body):
             yield node.name
         elif isinstance(node, ast.AnnAssign) and isinstance(node.target, ast.Name):
             yield node.target.id
-        elif isinstance(node, ast.ImportFrom) and node.module == "burnish._samplers":
+        elif isinstance(node, ast.ImportFrom) and node.module in {f"burnish.{name}" for name in STUBS}:
             yield from (alias.asname for alias in node.names if alias.asname == alias.name)
 
 
@@ -25,12 +27,13 @@ def public(names):
 
 
 def test_stub_and_extension_agree():
-    tree, samplers = (
-        ast.parse((REPOSITORY / "python/burnish" / name).read_text())
-        for name in ("_core.pyi", "_samplers.pyi")
+    tree, *others = (
+        ast.parse((REPOSITORY / "python/burnish" / f"{name}.pyi").read_text(encoding="utf-8"))
+        for name in STUBS
     )
     assert public(names_in_stub(tree.body)) == public(vars(_core))
-    assert public(names_in_stub(samplers.body)) <= public(names_in_stub(tree.body))
-    for node in [*tree.body, *samplers.body]:
+    for other in others:
+        assert public(names_in_stub(other.body)) <= public(names_in_stub(tree.body))
+    for node in [node for stub in (tree, *others) for node in stub.body]:
         if isinstance(node, ast.ClassDef):
             assert public(names_in_stub(node.body)) == public(vars(getattr(_core, node.name))), node.name
