@@ -2,7 +2,8 @@
 
 #include <algorithm>
 
-#include "burnish/plan/effects.h"
+#include "burnish/plan/material_traits.h"
+#include "burnish/scene/texture_kinds.h"
 #include "burnish/vulkan/device.h"
 #include "burnish/vulkan/transfer.h"
 #include "shared/constants.h"
@@ -10,30 +11,10 @@
 namespace burnish::render {
 namespace {
 
-struct TextureSlot {
-    uint32_t kind;
-    TextureUse MetallicRoughness::*use;
-    bool is_srgb;
-};
-
-constexpr TextureSlot TEXTURE_SLOTS[] = {
-    {shared::TEXTURE_BASE_COLOR, &MetallicRoughness::base_color_texture, true},
-    {shared::TEXTURE_METALLIC_ROUGHNESS, &MetallicRoughness::metallic_roughness_texture, false},
-    {shared::TEXTURE_NORMAL, &MetallicRoughness::normal_texture, false},
-    {shared::TEXTURE_OCCLUSION, &MetallicRoughness::occlusion_texture, false},
-    {shared::TEXTURE_EMISSIVE, &MetallicRoughness::emissive_texture, true},
-    {shared::TEXTURE_SPECULAR, &MetallicRoughness::specular_texture, false},
-    {shared::TEXTURE_SPECULAR_COLOR, &MetallicRoughness::specular_color_texture, true},
-    {shared::TEXTURE_ANISOTROPY, &MetallicRoughness::anisotropy_texture, false},
-    {shared::TEXTURE_CLEARCOAT, &MetallicRoughness::clearcoat_texture, false},
-    {shared::TEXTURE_CLEARCOAT_ROUGHNESS, &MetallicRoughness::clearcoat_roughness_texture, false},
-};
-static_assert(std::size(TEXTURE_SLOTS) == shared::TEXTURE_KINDS);
-
 uint32_t texture_mask(const Material& material) {
     uint32_t mask = 0;
-    for (const TextureSlot& slot : TEXTURE_SLOTS)
-        if (has_texture(material, slot.use)) mask |= 1u << slot.kind;
+    for (const TextureKind& kind : TEXTURE_KINDS)
+        if (has_texture(material, kind.use)) mask |= 1u << kind.kind;
     return mask;
 }
 
@@ -179,11 +160,11 @@ void SurfacePass::add_records(const vulkan::DevicePointer& device, const Scene& 
     for (const MaterialInstance& instance : plan.instances) {
         const Material& material = scene.materials[instance.material];
         surfaces.push_back(surface_record(material, uint32_t(textures.size())));
-        for (const TextureSlot& slot : TEXTURE_SLOTS) {
-            const TextureUse use = material.source ? *material.source.*slot.use : TextureUse{};
+        for (const TextureKind& kind : TEXTURE_KINDS) {
+            const TextureUse use = material.source ? *material.source.*kind.use : TextureUse{};
             const glm::mat2& m = use.uv_scale_rotation;
             textures.push_back(
-                {glm::vec4(m[0], m[1]), use.uv_offset, use.uv_set, coverage_levels(material, slot.kind)});
+                {glm::vec4(m[0], m[1]), use.uv_offset, use.uv_set, coverage_levels(material, kind.kind)});
         }
     }
     if (surfaces.empty()) {
@@ -233,12 +214,12 @@ const vulkan::DescriptorSet& SurfacePass::set_for(const vulkan::GraphicsPipeline
     if (!is_varying) return set;
     set.bind(shared::BINDING_SURFACE_MATERIALS, surface_records_);
     set.bind(shared::BINDING_SURFACE_TEXTURE_RECORDS, texture_records_);
-    for (const TextureSlot& slot : TEXTURE_SLOTS) {
+    for (const TextureKind& kind : TEXTURE_KINDS) {
         const BoundTexture texture =
-            gpu_scene_.texture(material.source ? *material.source.*slot.use : TextureUse{}, slot.is_srgb,
-                               texel_cutoff(material, slot.kind));
+            gpu_scene_.texture(material.source ? *material.source.*kind.use : TextureUse{}, kind.is_srgb,
+                               texel_cutoff(material, kind.kind));
         set.bind(shared::BINDING_SURFACE_TEXTURES, texture.image->view(), *texture.sampler,
-                 VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, slot.kind);
+                 VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, kind.kind);
     }
     return set;
 }

@@ -5,6 +5,7 @@
 
 #include "burnish/error.h"
 #include "burnish/scene/check.h"
+#include "burnish/scene/texture_kinds.h"
 
 namespace burnish::gltf {
 namespace {
@@ -245,12 +246,8 @@ void complete_mesh(Mesh& mesh, const Material& material, AccessorReader& reader,
     if (!material.source) return;
     const MetallicRoughness& source = *material.source;
     bool needs_uv[2] = {};
-    for (const TextureUse* use :
-         {&source.base_color_texture, &source.metallic_roughness_texture, &source.normal_texture,
-          &source.occlusion_texture, &source.emissive_texture, &source.specular_texture,
-          &source.specular_color_texture, &source.anisotropy_texture, &source.clearcoat_texture,
-          &source.clearcoat_roughness_texture})
-        if (use->is_used()) needs_uv[use->uv_set] = true;
+    for (const TextureKind& kind : TEXTURE_KINDS)
+        if ((source.*kind.use).is_used()) needs_uv[(source.*kind.use).uv_set] = true;
     bool has_uv[2] = {!mesh.uv0.empty(), !mesh.uv1.empty()};
 
     bool has_normal_map = source.normal_texture.is_used();

@@ -1,0 +1,18 @@
+// What one material calls for.
+#pragma once
+
+#include <functional>
+
+#include "burnish/scene/material.h"
+
+namespace burnish {
+
+bool has_texture(const Material& material, TextureUse MetallicRoughness::*which);
+/// Textures or vertex colours make its attributes vary over the surface.
+bool is_varying(const Material& material);
+bool any_lobe(const Material& material, const std::function<bool(const KurtLobe&)>& asks);
+bool has_diffuse(const Material& material);
+bool has_emissive(const Material& material);
+bool has_coat(const Material& material);
+
+} // namespace burnish
