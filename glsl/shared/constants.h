@@ -18,10 +18,15 @@ SHARED_CONST uint MAX_CONSTANT_SAMPLES = 64u;
 // compile, 240 took 18 s.
 SHARED_CONST uint MAX_UNROLLED_SAMPLES = 80u;
 
-// Nodes of albedo tables: cosines of the view at (i/(ALBEDO_COS_NODES-1))^2; roughness evenly in its log up to 1.
+// Nodes of albedo tables, see cpp/burnish/sampling/albedo_table.h: cosines of the view and roughnesses lie at squares, so that they
+// are dense where both are small.
 SHARED_CONST uint ALBEDO_COS_NODES = 128u;
-SHARED_CONST uint ALBEDO_ROUGHNESS_NODES = 16u;
-SHARED_CONST float ALBEDO_LEAST_ROUGHNESS = 0.01f;
+SHARED_CONST uint ALBEDO_ROUGHNESS_NODES = 32u; // of round lobes whose roughness varies
+// Of brushed lobes whose roughness varies.
+SHARED_CONST uint ALBEDO_BRUSHED_COS_NODES = 64u;
+SHARED_CONST uint ALBEDO_ALONG_NODES = 32u;
+SHARED_CONST uint ALBEDO_ACROSS_NODES = 12u;
+SHARED_CONST uint ALBEDO_CORRELATION_NODES = 6u;
 
 // The matched table is fitted at MATCHED_NODES aspects of the lobe on the map, evenly in their log up to 34, and read from
 // MATCHED_ROWS: so many that the nearest will do.

@@ -150,10 +150,7 @@ void add_effect_lines(const Scene& scene, Plan& plan) {
     add_lobe_effect("energy conservation", "no lobe asks for it", [](const Material& one) {
         return any_lobe(one, [](const KurtLobe& lobe) { return lobe.conserve_energy && lobe.alpha > 0.0f; });
     });
-    add_lobe_effect("anisotropy", "every lobe is round", [](const Material& one) {
-        return any_lobe(one, [](const KurtLobe& lobe) { return lobe.is_anisotropic(); }) ||
-               has_texture(one, &MetallicRoughness::anisotropy_texture);
-    });
+    add_lobe_effect("anisotropy", "every lobe is round", is_brushed);
     add("diffuse", "every diffuse reflectance is 0", has_diffuse);
     add("emissive", "no material emits", has_emissive);
     for (const TextureKind& kind : TEXTURE_KINDS)

@@ -36,4 +36,10 @@ bool has_coat(const Material& material) {
     return material.source && material.source->clearcoat > 0.0f;
 }
 
+bool is_brushed(const Material& material) {
+    // A texture may make a lobe narrower than its factors, of which the widest is round however brushed.
+    if (is_varying(material)) return material.source->anisotropy > 0.0f && !material.lobes.empty();
+    return any_lobe(material, [](const KurtLobe& lobe) { return lobe.is_anisotropic(); });
+}
+
 } // namespace burnish

@@ -14,5 +14,7 @@ bool any_lobe(const Material& material, const std::function<bool(const KurtLobe&
 bool has_diffuse(const Material& material);
 bool has_emissive(const Material& material);
 bool has_coat(const Material& material);
+/// A lobe reflects differently along tangent and bitangent.
+bool is_brushed(const Material& material);
 
 } // namespace burnish

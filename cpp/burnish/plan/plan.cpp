@@ -134,7 +134,6 @@ ShadeTraits traits_of(const Scene& scene, const Plan& plan, const MaterialInstan
     traits.lobe_count = uint32_t(material.lobes.size());
     for (const KurtLobe& lobe : material.lobes) {
         traits.has_fresnel |= lobe.has_fresnel() || traits.has_varying;
-        traits.has_tangent |= lobe.is_anisotropic();
         traits.conserves_energy |=
             lobe.conserve_energy && lobe.alpha > 0.0f; // with alpha = 0 nothing is gained
         const AlphaForm form = lobe.alpha == 0.0f   ? AlphaForm::zero
@@ -143,7 +142,7 @@ ShadeTraits traits_of(const Scene& scene, const Plan& plan, const MaterialInstan
         const bool is_first = &lobe == &material.lobes.front();
         traits.alpha = is_first || traits.alpha == form ? form : AlphaForm::general;
     }
-    traits.has_tangent |= has_texture(material, &MetallicRoughness::anisotropy_texture);
+    traits.has_tangent = is_brushed(material);
     if (traits.lobe_count == 0 || std::holds_alternative<Reference>(plan.settings.sampler)) return traits;
     if (std::holds_alternative<Matched>(plan.settings.sampler)) {
         traits.table = matched_form(material, fit_tables, traits);
