@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "burnish/scene/metallic_roughness.h"
 #include "burnish/scene/texture_kinds.h"
 
 namespace burnish {
@@ -22,10 +23,19 @@ bool is_varying(const Material& material) {
 }
 
 bool has_diffuse(const Material& material) {
-    return material.diffuse != glm::vec3(0.0f) ||
-           has_texture(
-               material,
-               &MetallicRoughness::metallic_roughness_texture); // may be less metallic than its factor
+    if (material.diffuse != glm::vec3(0.0f)) return true;
+    if (!is_varying(material)) return false;
+    // Somewhere textures may make it less metallic, or less reflecting, than its factors.
+    const MetallicRoughness& source = *material.source;
+    const bool has_specular_color = has_texture(material, &MetallicRoughness::specular_color_texture);
+    const MetallicRoughnessPoint least = {
+        .base = glm::vec3(source.base_color),
+        .metallic =
+            has_texture(material, &MetallicRoughness::metallic_roughness_texture) ? 0.0f : source.metallic,
+        .ior = source.ior,
+        .specular = has_texture(material, &MetallicRoughness::specular_texture) ? 0.0f : source.specular,
+        .specular_color = has_specular_color ? glm::vec3(0.0f) : source.specular_color};
+    return map_metallic_roughness(least).diffuse != glm::vec3(0.0f);
 }
 
 bool has_emissive(const Material& material) {
