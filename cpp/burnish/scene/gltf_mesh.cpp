@@ -253,16 +253,21 @@ void complete_mesh(Mesh& mesh, const Material& material, AccessorReader& reader,
     bool has_normal_map = source.normal_texture.is_used();
     bool is_anisotropic = source.anisotropy > 0.0f;
     if ((has_normal_map || is_anisotropic) && mesh.tangents.empty()) {
-        // KHR_materials_anisotropy: the normal map's set, else that of the anisotropy texture, else the first
-        // there is.
-        uint32_t uv_set = has_normal_map                        ? source.normal_texture.uv_set
-                          : source.anisotropy_texture.is_used() ? source.anisotropy_texture.uv_set
-                          : has_uv[0] || !has_uv[1]             ? 0u
-                                                                : 1u;
-        if (has_uv[uv_set]) {
-            constexpr uint64_t BYTES_PER_CORNER = 192; // while they are derived
+        // There is one frame for all textures of directions: that of the coordinates by which the normal map
+        // is read, as KHR_materials_anisotropy asks, else the anisotropy texture, else of the first
+        // coordinates there are.
+        TextureUse use;
+        use.uv_set = has_uv[0] || !has_uv[1] ? 0u : 1u;
+        for (const TextureUse* first :
+             {&source.normal_texture, &source.anisotropy_texture}) {
+            if (!first->is_used()) continue;
+            use = *first;
+            break;
+        }
+        if (has_uv[use.uv_set]) {
+            constexpr uint64_t BYTES_PER_CORNER = 208; // while they are derived
             reader.require_room(mesh.indices.size() * BYTES_PER_CORNER, where);
-            compute_tangents(mesh, uv_set);
+            compute_tangents(mesh, use.uv_set, use.uv_scale_rotation);
             reader.charge(mesh.positions.size() * sizeof(glm::vec4), where);
         } else {
             compute_tangents_around_y(mesh);
