@@ -97,8 +97,12 @@ struct SurfaceRecord {
     float normal_scale;
     float occlusion_strength;
     uint texture_begin;   // first of its TEXTURE_KINDS TextureRecords
+    float clearcoat_normal_scale;
+    uint pad0;
+    uint pad1;
+    uint pad2;
 };
-SHARED_SIZE(SurfaceRecord, 80)
+SHARED_SIZE(SurfaceRecord, 96)
 
 // Push constants of one draw.
 struct DrawRecord {

@@ -29,7 +29,7 @@ layout(location = 0) out uvec2 surface;
 layout(location = 1) out vec4 diffuse_out;  // rgb: kd; a: roughness_x
 layout(location = 2) out vec4 specular_out; // rgb: weight r0; a: roughness_y
 layout(location = 3) out vec4 emissive_out; // rgb: radiance; a: weight at grazing
-layout(location = 4) out vec4 coat_out;     // x: weight, y: roughness
+layout(location = 4) out uvec2 coat_out;    // x: weight and roughness, two halves; y: octahedral normal, two snorm16
 
 SurfaceRecord material;
 vec4 uv_dx, uv_dy;
@@ -101,6 +101,7 @@ void main() {
 
     float handedness = tangent_world.w;
     mat3 frame = frame_from_tangent(normalize(normal_world), tangent_world.xyz, handedness);
+    vec3 coat_normal = bend_normal(TEXTURE_CLEARCOAT_NORMAL, material.clearcoat_normal_scale, frame);
     if (has_texture(TEXTURE_NORMAL))
         frame = frame_from_tangent(bend_normal(TEXTURE_NORMAL, material.normal_scale, frame), frame[0], handedness);
 
@@ -112,9 +113,10 @@ void main() {
         direction = length2 > 1e-4 ? direction * inversesqrt(length2) : vec2(1.0, 0.0);
         frame[0] = direction.x * frame[0] + direction.y * frame[1];
     }
-    // Seen from behind the mapped normal turns around, and tangent and bitangent stay: what is brushed lies on both sides the same way.
+    // Seen from behind the mapped normals turn around, and tangent and bitangent stay: what is brushed lies on both sides the same way.
     if (IS_DOUBLE_SIDED && !gl_FrontFacing) {
         frame[2] = -frame[2];
+        coat_normal = -coat_normal;
         handedness = -handedness;
     }
 
@@ -135,5 +137,5 @@ void main() {
     diffuse_out = round_to_half(vec4(mapped.diffuse * occlusion, mapped.roughness.x));
     specular_out = round_to_half(vec4(mapped.specular, mapped.roughness.y));
     emissive_out = round_to_half(vec4(emissive, mapped.specular.r + mapped.grazing.r));
-    coat_out = round_to_half(vec4(coat, slope_from_perceptual(coat_roughness), 0.0, 0.0));
+    coat_out = uvec2(packHalf2x16(vec2(coat, slope_from_perceptual(coat_roughness))), packSnorm2x16(octahedral_encode(coat_normal)));
 }

@@ -151,6 +151,7 @@ void add_effect_lines(const Scene& scene, Plan& plan) {
         return any_lobe(one, [](const KurtLobe& lobe) { return lobe.conserve_energy && lobe.alpha > 0.0f; });
     });
     add_lobe_effect("anisotropy", "every lobe is round", is_brushed);
+    add_lobe_effect("clear coat normal", "no clear coat lies over a normal map or has one", has_coat_normal);
     add("diffuse", "every diffuse reflectance is 0", has_diffuse);
     add("emissive", "no material emits", has_emissive);
     for (const TextureKind& kind : TEXTURE_KINDS)

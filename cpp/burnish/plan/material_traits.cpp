@@ -46,10 +46,20 @@ bool has_coat(const Material& material) {
     return material.source && material.source->clearcoat > 0.0f;
 }
 
+bool has_coat_normal(const Material& material) {
+    return has_coat(material) && (has_texture(material, &MetallicRoughness::normal_texture) ||
+                                  has_texture(material, &MetallicRoughness::clearcoat_normal_texture));
+}
+
 bool is_brushed(const Material& material) {
     // A texture may make a lobe narrower than its factors, of which the widest is round however brushed.
     if (is_varying(material)) return material.source->anisotropy > 0.0f && !material.lobes.empty();
     return any_lobe(material, [](const KurtLobe& lobe) { return lobe.is_anisotropic(); });
+}
+
+bool needs_tangent(const Material& material) {
+    return is_brushed(material) || has_texture(material, &MetallicRoughness::normal_texture) ||
+           has_texture(material, &MetallicRoughness::clearcoat_normal_texture);
 }
 
 } // namespace burnish

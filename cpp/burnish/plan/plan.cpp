@@ -123,6 +123,7 @@ ShadeTraits traits_of(const Scene& scene, const Plan& plan, const MaterialInstan
     ShadeTraits traits;
     traits.has_varying = is_varying(material);
     traits.has_coat = traits.has_varying && has_coat(material);
+    traits.has_coat_normal = has_coat_normal(material);
     traits.has_diffuse = has_diffuse(material);
     traits.has_emissive = has_emissive(material);
     const Environment& environment = *plan.environments[instance.environment];
@@ -189,7 +190,8 @@ void share_pipelines(ShadeTraits& traits) {
     traits.has_fresnel = traits.has_tangent = traits.conserves_energy = true;
     traits.has_wide_components = traits.table == TableForm::matched;
     traits.alpha = AlphaForm::general;
-    traits.has_coat = traits.has_varying && traits.lobe_count > 1;
+    traits.has_coat |= traits.has_varying && traits.lobe_count > 1;
+    traits.has_coat_normal = traits.has_coat;
     if (traits.sun_count > 0) traits.sun_count = shared::MAX_SUNS; // those that are not there have no flux
 }
 

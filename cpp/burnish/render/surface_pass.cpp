@@ -51,6 +51,7 @@ shared::SurfaceRecord surface_record(const Material& material, uint32_t texture_
     record.normal_scale = source.normal_scale;
     record.occlusion_strength = source.occlusion_strength;
     record.texture_begin = texture_begin;
+    record.clearcoat_normal_scale = source.clearcoat_normal_scale;
     return record;
 }
 
@@ -98,6 +99,7 @@ vulkan::Image target(const vulkan::DevicePointer& device, VkFormat format, uint3
 
 constexpr VkFormat SURFACE_FORMAT = VK_FORMAT_R32G32_UINT;
 constexpr VkFormat VARYING_FORMAT = VK_FORMAT_R16G16B16A16_SFLOAT;
+constexpr VkFormat COAT_FORMAT = VK_FORMAT_R32G32_UINT;
 constexpr VkFormat DEPTH_FORMAT = VK_FORMAT_D32_SFLOAT;
 
 } // namespace
@@ -109,8 +111,10 @@ FrameTargets::FrameTargets(const vulkan::DevicePointer& device, uint32_t width_p
     const VkImageUsageFlags color = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_STORAGE_BIT;
     surface = target(device, SURFACE_FORMAT, width, height, color);
     depth = target(device, DEPTH_FORMAT, width, height, VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT);
-    for (vulkan::Image* image : {&varying_diffuse, &varying_specular, &varying_emissive, &varying_coat})
-        *image = target(device, VARYING_FORMAT, is_varying ? width : 1, is_varying ? height : 1, color);
+    const uint32_t varying_width = is_varying ? width : 1, varying_height = is_varying ? height : 1;
+    for (vulkan::Image* image : {&varying_diffuse, &varying_specular, &varying_emissive})
+        *image = target(device, VARYING_FORMAT, varying_width, varying_height, color);
+    varying_coat = target(device, COAT_FORMAT, varying_width, varying_height, color);
     const VkDeviceSize pixels = VkDeviceSize(width) * height;
     tile_capacity = ((width + shared::TILE_SIZE - 1) / shared::TILE_SIZE) *
                     ((height + shared::TILE_SIZE - 1) / shared::TILE_SIZE);
@@ -136,7 +140,7 @@ SurfacePass::SurfacePass(Pipelines& pipelines, GpuScene& gpu_scene, const Scene&
                          const glm::dvec3& eye, const FrameTargets& targets)
     : gpu_scene_(gpu_scene), has_varying_(plan.has_varying), has_tangent_(plan.has_tangent) {
     for (const MaterialInstance& instance : plan.instances)
-        has_tangent_ |= has_texture(scene.materials[instance.material], &MetallicRoughness::normal_texture);
+        has_tangent_ |= needs_tangent(scene.materials[instance.material]);
     add_records(pipelines.device(), scene, plan);
     for (size_t k = 0; k < scene.objects.size(); ++k) {
         const Object& object = scene.objects[k];
@@ -187,7 +191,9 @@ const vulkan::GraphicsPipeline& SurfacePass::pipeline_for(Pipelines& pipelines, 
             {1, has_texture_vertices ? GpuScene::TEXTURE_VERTEX_BYTES : 0, VK_VERTEX_INPUT_RATE_VERTEX});
     settings.vertex_attributes = vertex_attributes(is_varying);
     settings.color_formats = {SURFACE_FORMAT};
-    if (is_varying) settings.color_formats.insert(settings.color_formats.end(), 4, VARYING_FORMAT);
+    if (is_varying)
+        settings.color_formats.insert(settings.color_formats.end(),
+                                      {VARYING_FORMAT, VARYING_FORMAT, VARYING_FORMAT, COAT_FORMAT});
     settings.depth_format = DEPTH_FORMAT;
     settings.cull_mode = material.double_sided ? VK_CULL_MODE_NONE : VK_CULL_MODE_BACK_BIT;
     settings.front_face = is_mirrored ? VK_FRONT_FACE_CLOCKWISE : VK_FRONT_FACE_COUNTER_CLOCKWISE;

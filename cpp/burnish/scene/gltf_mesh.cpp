@@ -250,16 +250,16 @@ void complete_mesh(Mesh& mesh, const Material& material, AccessorReader& reader,
         if ((source.*kind.use).is_used()) needs_uv[(source.*kind.use).uv_set] = true;
     bool has_uv[2] = {!mesh.uv0.empty(), !mesh.uv1.empty()};
 
-    bool has_normal_map = source.normal_texture.is_used();
+    bool has_normal_map = source.normal_texture.is_used() || source.clearcoat_normal_texture.is_used();
     bool is_anisotropic = source.anisotropy > 0.0f;
     if ((has_normal_map || is_anisotropic) && mesh.tangents.empty()) {
         // There is one frame for all textures of directions: that of the coordinates by which the normal map
-        // is read, as KHR_materials_anisotropy asks, else the anisotropy texture, else of the first
-        // coordinates there are.
+        // is read, as KHR_materials_anisotropy asks, else the anisotropy texture, else the coat's normal map,
+        // else of the first coordinates there are.
         TextureUse use;
         use.uv_set = has_uv[0] || !has_uv[1] ? 0u : 1u;
         for (const TextureUse* first :
-             {&source.normal_texture, &source.anisotropy_texture}) {
+             {&source.normal_texture, &source.anisotropy_texture, &source.clearcoat_normal_texture}) {
             if (!first->is_used()) continue;
             use = *first;
             break;

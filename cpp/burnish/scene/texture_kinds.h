@@ -29,6 +29,8 @@ inline constexpr TextureKind TEXTURE_KINDS[] = {
     {shared::TEXTURE_CLEARCOAT, "clear coat texture", &MetallicRoughness::clearcoat_texture, false},
     {shared::TEXTURE_CLEARCOAT_ROUGHNESS, "clear coat roughness texture",
      &MetallicRoughness::clearcoat_roughness_texture, false},
+    {shared::TEXTURE_CLEARCOAT_NORMAL, "clear coat normal mapping",
+     &MetallicRoughness::clearcoat_normal_texture, false},
 };
 static_assert(std::size(TEXTURE_KINDS) == shared::TEXTURE_KINDS);
 
