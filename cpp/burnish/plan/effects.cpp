@@ -200,6 +200,21 @@ void add_effect_lines(const Scene& scene, Plan& plan) {
          plan.settings.spp > 1 ? message(plan.settings.spp, " jittered pictures are averaged") : "spp = 1"});
 }
 
+void warn_of_missing_tangents(const Scene& scene, Plan& plan) {
+    if (!plan.settings.has_lobes) return;
+    std::set<uint32_t> warned;
+    for (const Object& object : scene.objects) {
+        if (object.mesh >= scene.meshes.size()) continue; // points bring their tangents
+        const Mesh& mesh = scene.meshes[object.mesh];
+        const bool has_some = !mesh.tangents.empty() || !mesh.uv0.empty() || !mesh.uv1.empty();
+        if (has_some || !needs_tangent(scene.materials[object.material])) continue;
+        if (!warned.insert(object.mesh).second) continue;
+        plan.warnings.push_back(message("mesh \"", mesh.name,
+                                        "\": expected tangents or texture coordinates, got none: what is "
+                                        "brushed on it follows the longitude around its y axis"));
+    }
+}
+
 void add_pass_lines(Plan& plan) {
     const auto add = [&](const char* name, std::string reason) {
         plan.passes.push_back({name, std::move(reason)});

@@ -11,5 +11,7 @@ namespace burnish {
 std::string describe(const ShadeClass& one, const Scene& scene, const Plan& plan, size_t constant_count);
 void add_effect_lines(const Scene& scene, Plan& plan);
 void add_pass_lines(Plan& plan);
+/// Says where brushed surfaces have no direction of their own.
+void warn_of_missing_tangents(const Scene& scene, Plan& plan);
 
 } // namespace burnish

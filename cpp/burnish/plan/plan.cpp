@@ -288,6 +288,7 @@ Plan make_plan(const Scene& scene, const PlanSettings& settings, SunCache& suns)
     add_classes(scene, plan);
     warn_of_nothing_drawn(scene, plan);
     if (!scene.environment) plan.warnings.push_back("the scene has no environment: only emission is seen");
+    warn_of_missing_tangents(scene, plan);
     if (plan.has_tangent && std::holds_alternative<Prefiltered>(settings.sampler))
         plan.warnings.push_back(
             "prefiltered maps are round: brushed lobes reflect as the round ones of slope sqrt(mx my)");

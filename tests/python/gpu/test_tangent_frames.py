@@ -158,3 +158,34 @@ def test_texture_may_make_the_roundest_factors_brushed(device, smooth64, tmp_pat
     expected = oracle_shade(levels, burnish.Material(lobes=[lobe]), sampler, Z, [0.6, 0.8, 0.0], Z)
     np.testing.assert_allclose(got, expected, rtol=0, atol=LIMIT * expected.mean())
     assert next(line["on"] for line in frame.report.effects if line["name"] == "anisotropy")
+
+
+def plane(uv0):
+    positions = np.float32([[-1, -1, 0], [1, -1, 0], [1, 1, 0], [-1, 1, 0]])
+    normals = np.float32([[0, 0, 1]] * 4)
+    return burnish.Mesh(positions, np.uint32([[0, 1, 2], [0, 2, 3]]), normals, uv0=uv0, name="plate")
+
+
+def test_brushed_mesh_without_tangents_takes_them_from_its_texture_coordinates(device, smooth64):
+    """The same mesh first with a round lobe, which asks for none."""
+    diagonal = np.float32([[0, 1], [1, 2], [2, 1], [1, 0]]) / 2  # u grows along x + y
+    scene = burnish.Scene()
+    scene.add(plane(diagonal), burnish.Material(lobes=[burnish.KurtLobe(0.2)]))
+    middle_color(device, scene, smooth64, burnish.Importance(), Z)
+    scene.set_material(0, brushed_lobe(0.8))
+    assert_brushed(device, scene, smooth64, 0.8, Z, [*unit(X + Y), 1.0])
+    _, frame = middle_color(device, scene, smooth64, burnish.Importance(), Z)
+    assert frame.report.warnings == []
+
+
+def test_brushed_mesh_without_any_direction_is_reported(device, smooth64):
+    scene = burnish.Scene()
+    scene.add(plane(None), brushed_lobe(0.8))
+    _, frame = middle_color(device, scene, smooth64, burnish.Importance(), Z)
+    assert frame.report.warnings == [
+        'mesh "plate": expected tangents or texture coordinates, got none: what is brushed on it follows the '
+        "longitude around its y axis"
+    ]
+    scene.set_material(0, burnish.Material(lobes=[burnish.KurtLobe(0.2)]))
+    _, frame = middle_color(device, scene, smooth64, burnish.Importance(), Z)
+    assert frame.report.warnings == []
