@@ -53,7 +53,8 @@ indices : (m, 3) uint32
 normals : None or (n, 3) float32
     Unit vectors; None takes the mean of the faces around each vertex, weighted by area.
 tangents : None or (n, 4) float32
-    Unit vectors along growing u and the bitangent's sign, +1 or -1. Anisotropic lobes need them.
+    Unit vectors along growing u and the bitangent's sign, +1 or -1. Where a brushed lobe needs them, None
+    takes them from `uv0`; without that they follow the longitude around y, and the report warns.
 uv0 : None or (n, 2) float32
     Texture coordinates.
 name : str

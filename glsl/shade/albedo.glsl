@@ -31,18 +31,49 @@ vec2 fixed_albedo(uint begin, uint width_nodes, vec3 local_o, vec2 roughness) {
     return mix(albedo_row(row, local_o.z), albedo_row(row + ALBEDO_COS_NODES, local_o.z), x - j);
 }
 
-// Tables of lobes whose roughness varies hold one row for each of ALBEDO_ROUGHNESS_NODES roughnesses, evenly in their log.
-vec2 varying_albedo(uint begin, vec2 roughness, float cos_o) {
-    float m = sqrt(roughness.x * roughness.y);
-    float x = clamp(log2(m / ALBEDO_LEAST_ROUGHNESS) / -log2(ALBEDO_LEAST_ROUGHNESS), 0.0, 1.0) * float(ALBEDO_ROUGHNESS_NODES - 1u);
-    float j = min(floor(x), float(ALBEDO_ROUGHNESS_NODES - 2u));
-    uint row = begin + uint(j) * ALBEDO_COS_NODES;
-    return mix(albedo_row(row, cos_o), albedo_row(row + ALBEDO_COS_NODES, cos_o), x - j);
+// What lies at `x`, in 0..1, of `nodes` nodes: y, the node below it, and z, the share of the next.
+vec3 between_nodes(float x, uint nodes) {
+    float at = clamp(x, 0.0, 1.0) * float(nodes - 1u);
+    float node = min(floor(at), float(nodes - 2u));
+    return vec3(at, node, at - node);
+}
+
+// VaryingAlbedoTable of a round lobe.
+vec2 varying_albedo(uint begin, float roughness, float cos_o) {
+    vec3 m = between_nodes(sqrt(roughness), ALBEDO_ROUGHNESS_NODES);
+    uint row = begin + uint(m.y) * ALBEDO_COS_NODES;
+    return mix(albedo_row(row, cos_o), albedo_row(row + ALBEDO_COS_NODES, cos_o), m.z);
+}
+
+// Of a brushed one: with slopes of covariance C/2 in the plane of view and across it, by sqrt(C_xx), sqrt(C_yy) and C_xy^2/(C_xx C_yy).
+vec2 brushed_albedo(uint begin, vec2 roughness, vec3 local_o) {
+    float sine2 = dot(local_o.xy, local_o.xy);
+    vec2 e = sine2 > 1e-12 ? local_o.xy * inversesqrt(sine2) : vec2(1.0, 0.0);
+    vec2 m2 = roughness * roughness;
+    float along2 = dot(e * e, m2), across2 = dot(e * e, m2.yx);
+    vec3 along = between_nodes(sqrt(sqrt(along2)), ALBEDO_ALONG_NODES);
+    vec3 across = between_nodes(sqrt(sqrt(across2)), ALBEDO_ACROSS_NODES);
+    vec3 correlation = between_nodes(1.0 - m2.x * m2.y / (along2 * across2), ALBEDO_CORRELATION_NODES);
+    vec3 cosine = between_nodes(sqrt(max(local_o.z, 0.0)), ALBEDO_BRUSHED_COS_NODES);
+    const int step_across = int(ALBEDO_BRUSHED_COS_NODES * ALBEDO_CORRELATION_NODES);
+    const int step_along = step_across * int(ALBEDO_ACROSS_NODES);
+    int node = int(begin) + int(along.y) * step_along + int(across.y) * step_across +
+               int(correlation.y) * int(ALBEDO_BRUSHED_COS_NODES) + int(cosine.y);
+    vec4 sum = vec4(0.0);
+    [[unroll]] for (int k = 0; k < 8; ++k) {
+        float share = ((k & 1) != 0 ? along.z : 1.0 - along.z) * ((k & 2) != 0 ? across.z : 1.0 - across.z) *
+                      ((k & 4) != 0 ? correlation.z : 1.0 - correlation.z);
+        sum += share * imageLoad(albedo_table, node + (k & 1) * step_along + (k >> 1 & 1) * step_across +
+                                                   (k >> 2) * int(ALBEDO_BRUSHED_COS_NODES));
+    }
+    return mix(sum.xy, sum.zw, cosine.z);
 }
 
 // (E1, Es) at the view `local_o` of the lobe of `record`.
 vec2 lobe_albedo(LobeRecord record, vec2 roughness, vec3 local_o) {
-    if (HAS_VARYING) return varying_albedo(record.albedo_begin, roughness, local_o.z);
+    if (HAS_VARYING && HAS_TANGENT && record.albedo_width_nodes > 1u)
+        return brushed_albedo(record.albedo_begin, roughness, local_o);
+    if (HAS_VARYING) return varying_albedo(record.albedo_begin, roughness.x, local_o.z);
     return fixed_albedo(record.albedo_begin, record.albedo_width_nodes, local_o, roughness);
 }
 

@@ -17,6 +17,7 @@ layout(constant_id = SPEC_HAS_DIFFUSE) const bool HAS_DIFFUSE = false;
 layout(constant_id = SPEC_HAS_EMISSIVE) const bool HAS_EMISSIVE = false;
 layout(constant_id = SPEC_HAS_VARYING) const bool HAS_VARYING = false;
 layout(constant_id = SPEC_HAS_COAT) const bool HAS_COAT = false;
+layout(constant_id = SPEC_HAS_COAT_NORMAL) const bool HAS_COAT_NORMAL = false;
 layout(constant_id = SPEC_HAS_MAP_ROTATION) const bool HAS_MAP_ROTATION = false;
 layout(constant_id = SPEC_SHADE_CLASS) const uint SHADE_CLASS = 0u;
 layout(constant_id = SPEC_IS_DISPLAY) const bool IS_DISPLAY = false;
@@ -26,7 +27,7 @@ layout(binding = BINDING_SURFACE, rg32ui) uniform readonly uimage2D surface_imag
 layout(binding = BINDING_VARYING_DIFFUSE, rgba16f) uniform readonly image2D varying_diffuse;
 layout(binding = BINDING_VARYING_SPECULAR, rgba16f) uniform readonly image2D varying_specular;
 layout(binding = BINDING_VARYING_EMISSIVE, rgba16f) uniform readonly image2D varying_emissive;
-layout(binding = BINDING_VARYING_COAT, rgba16f) uniform readonly image2D varying_coat;
+layout(binding = BINDING_VARYING_COAT, rg32ui) uniform readonly uimage2D varying_coat;
 layout(std430, binding = BINDING_POINTS) readonly buffer Points { SurfacePoint points[]; };
 layout(std430, binding = BINDING_TILES) readonly buffer Tiles { uint tiles[]; };
 layout(std430, binding = BINDING_TILE_COUNTS) readonly buffer TileCounts { uvec4 tile_counts[]; };

@@ -110,7 +110,7 @@ void main() {
         LobeRecord record = load_lobe(material.lobe_begin + which);
         LobeView v;
         v.lobe = point_lobe(point, material.lobe_begin + which, which);
-        mat3 frame = lobe_frame(point.frame, record);
+        mat3 frame = lobe_frame(point_frame(point, which), record);
         v.local_o = point.omega_o * frame;
         v.frame = environment_from_world(map, frame);
         v.alpha = record.alpha;

@@ -18,7 +18,7 @@ vec3 shade_lobe(PointToShade point, MapRecord map, uint lobe_index, uint which) 
     SurfaceLobe lobe = point_lobe(point, lobe_index, which);
     LobeRecord record = load_lobe(lobe_index);
     LobeView v;
-    mat3 frame = lobe_frame(point.frame, record);
+    mat3 frame = lobe_frame(point_frame(point, which), record);
     v.local_o = point.omega_o * frame;
     v.frame = environment_from_world(map, frame);
     v.omega_o = environment_from_world(map, point.omega_o);

@@ -95,10 +95,13 @@ vec3 point_emissive(PointToShade point) {
     return HAS_VARYING ? imageLoad(varying_emissive, point.pixel).rgb : load_material(point.material).emissive.rgb;
 }
 
-// Lobe `which` of the point. With varying materials lobe 0 is the base, lobe 1 the clear coat.
+// Of a varying material the clear coat is the last lobe and the base the first; where the base reflects nothing, the coat is both.
+bool is_coat(uint which) { return HAS_VARYING && HAS_COAT && which + 1u == LOBE_COUNT; }
+
+// Lobe `which` of the point.
 SurfaceLobe point_lobe(PointToShade point, uint lobe_index, uint which) {
     SurfaceLobe lobe;
-    if (HAS_VARYING && which == 0u) {
+    if (HAS_VARYING && !is_coat(which)) {
         vec4 specular = imageLoad(varying_specular, point.pixel);
         lobe.specular = specular.rgb;
         lobe.grazing = vec3(imageLoad(varying_emissive, point.pixel).a) - specular.rgb;
@@ -109,13 +112,20 @@ SurfaceLobe point_lobe(PointToShade point, uint lobe_index, uint which) {
     lobe.specular = record.specular.rgb;
     lobe.grazing = record.grazing.rgb;
     lobe.roughness = vec2(record.specular.a, record.grazing.a);
-    if (HAS_VARYING && HAS_COAT && which == 1u) {
-        vec4 coat = imageLoad(varying_coat, point.pixel); // x: weight, y: roughness
+    if (is_coat(which)) {
+        vec2 coat = unpackHalf2x16(imageLoad(varying_coat, point.pixel).x); // weight, roughness
         lobe.specular *= coat.x;
         lobe.grazing *= coat.x;
         lobe.roughness = vec2(coat.y);
     }
     return lobe;
+}
+
+// The frame of lobe `which`. A normal map bends the base alone: the clear coat, which is round, has its own normal.
+mat3 point_frame(PointToShade point, uint which) {
+    if (!HAS_COAT_NORMAL || !is_coat(which)) return point.frame;
+    vec3 normal = octahedral_decode(unpackSnorm2x16(imageLoad(varying_coat, point.pixel).y));
+    return longitude_frame(facing_normal(normal, point.omega_o));
 }
 
 vec3 environment_from_world(MapRecord map, vec3 v) {

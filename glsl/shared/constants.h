@@ -18,10 +18,15 @@ SHARED_CONST uint MAX_CONSTANT_SAMPLES = 64u;
 // compile, 240 took 18 s.
 SHARED_CONST uint MAX_UNROLLED_SAMPLES = 80u;
 
-// Nodes of albedo tables: cosines of the view at (i/(ALBEDO_COS_NODES-1))^2; roughness evenly in its log up to 1.
+// Nodes of albedo tables, see cpp/burnish/sampling/albedo_table.h: cosines of the view and roughnesses lie at squares, so that they
+// are dense where both are small.
 SHARED_CONST uint ALBEDO_COS_NODES = 128u;
-SHARED_CONST uint ALBEDO_ROUGHNESS_NODES = 16u;
-SHARED_CONST float ALBEDO_LEAST_ROUGHNESS = 0.01f;
+SHARED_CONST uint ALBEDO_ROUGHNESS_NODES = 32u; // of round lobes whose roughness varies
+// Of brushed lobes whose roughness varies.
+SHARED_CONST uint ALBEDO_BRUSHED_COS_NODES = 64u;
+SHARED_CONST uint ALBEDO_ALONG_NODES = 32u;
+SHARED_CONST uint ALBEDO_ACROSS_NODES = 12u;
+SHARED_CONST uint ALBEDO_CORRELATION_NODES = 6u;
 
 // The matched table is fitted at MATCHED_NODES aspects of the lobe on the map, evenly in their log up to 34, and read from
 // MATCHED_ROWS: so many that the nearest will do.
@@ -96,6 +101,7 @@ SHARED_CONST uint SPEC_SAMPLE_TABLE_IS_STORED = 24u; // in a storage buffer: a t
 SHARED_CONST uint SPEC_IS_DISPLAY = 25u; // of the accumulation too
 SHARED_CONST uint SPEC_COUNTS_NON_FINITE = 26u; // what is not finite is counted, too
 SHARED_CONST uint SPEC_PHASE = 27u; // lookups at a turn, of tables in a buffer
+SHARED_CONST uint SPEC_HAS_COAT_NORMAL = 28u; // the clear coat's normal is not the base's
 SHARED_CONST uint SPEC_SAMPLES = 100u; // four floats a sample follow
 
 SHARED_CONST uint LOOKUP_SAMPLER = 0u; // the device's
@@ -132,7 +138,7 @@ SHARED_CONST uint NORMALIZATION_PROJECTED = 3u; // scaled tables: divided by the
 SHARED_CONST uint BINDING_SURFACE_VIEW = 0u;
 SHARED_CONST uint BINDING_SURFACE_MATERIALS = 1u;
 SHARED_CONST uint BINDING_SURFACE_TEXTURE_RECORDS = 2u;
-SHARED_CONST uint BINDING_SURFACE_TEXTURES = 3u; // ten from here on, one for each texture kind
+SHARED_CONST uint BINDING_SURFACE_TEXTURES = 3u; // eleven from here on, one for each texture kind
 SHARED_CONST uint TEXTURE_BASE_COLOR = 0u;
 SHARED_CONST uint TEXTURE_METALLIC_ROUGHNESS = 1u;
 SHARED_CONST uint TEXTURE_NORMAL = 2u;
@@ -143,7 +149,8 @@ SHARED_CONST uint TEXTURE_SPECULAR_COLOR = 6u;
 SHARED_CONST uint TEXTURE_ANISOTROPY = 7u;
 SHARED_CONST uint TEXTURE_CLEARCOAT = 8u;
 SHARED_CONST uint TEXTURE_CLEARCOAT_ROUGHNESS = 9u;
-SHARED_CONST uint TEXTURE_KINDS = 10u;
+SHARED_CONST uint TEXTURE_CLEARCOAT_NORMAL = 10u;
+SHARED_CONST uint TEXTURE_KINDS = 11u;
 // Alpha of a masked texture's mip levels: averaged, or coverage that is averaged, and how levels go over into each
 // other.
 SHARED_CONST uint COVERAGE_LEVELS_NONE = 0u;

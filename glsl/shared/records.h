@@ -22,7 +22,7 @@ struct LobeRecord {
     uint table_begin;      // first entry of its sample table
     uint table_count;      // samples
     uint albedo_begin;     // first entry of its albedo table
-    uint albedo_width_nodes; // 1 = isotropic
+    uint albedo_width_nodes; // of a fixed roughness; 1 = round
     float threshold_log;   // -ln xi0, for scaled tables of the regular pattern
     uint conserves_energy; // 1: divided by its albedo where that exceeds 1
     float variance_share;  // of matched lookups: what a variance of 1 is of level 1's, face_texels / (16 SPHERICAL_VARIANCE)
@@ -97,8 +97,12 @@ struct SurfaceRecord {
     float normal_scale;
     float occlusion_strength;
     uint texture_begin;   // first of its TEXTURE_KINDS TextureRecords
+    float clearcoat_normal_scale;
+    uint pad0;
+    uint pad1;
+    uint pad2;
 };
-SHARED_SIZE(SurfaceRecord, 80)
+SHARED_SIZE(SurfaceRecord, 96)
 
 // Push constants of one draw.
 struct DrawRecord {

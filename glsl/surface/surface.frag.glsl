@@ -16,10 +16,13 @@ layout(location = 0) out uvec2 surface;
 
 void main() {
     vec3 normal = normalize(normal_world);
-    if (IS_DOUBLE_SIDED && !gl_FrontFacing) normal = -normal;
+    // Seen from behind the normal turns around, and tangent and bitangent stay: what is brushed lies on both sides the same way.
+    bool is_turned = IS_DOUBLE_SIDED && !gl_FrontFacing;
+    if (is_turned) normal = -normal;
     if (HAS_TANGENT) {
-        mat3 frame = frame_from_tangent(normal, tangent_world.xyz, tangent_world.w);
-        surface = pack_surface(normal, frame[0], tangent_world.w, draw.material);
+        float handedness = is_turned ? -tangent_world.w : tangent_world.w;
+        mat3 frame = frame_from_tangent(normal, tangent_world.xyz, handedness);
+        surface = pack_surface(normal, frame[0], handedness, draw.material);
     } else {
         surface = pack_surface(normal, draw.material);
     }

@@ -29,7 +29,7 @@ layout(location = 0) out uvec2 surface;
 layout(location = 1) out vec4 diffuse_out;  // rgb: kd; a: roughness_x
 layout(location = 2) out vec4 specular_out; // rgb: weight r0; a: roughness_y
 layout(location = 3) out vec4 emissive_out; // rgb: radiance; a: weight at grazing
-layout(location = 4) out vec4 coat_out;     // x: weight, y: roughness
+layout(location = 4) out uvec2 coat_out;    // x: weight and roughness, two halves; y: octahedral normal, two snorm16
 
 SurfaceRecord material;
 vec4 uv_dx, uv_dy;
@@ -48,6 +48,15 @@ vec4 read_texture(uint kind, vec4 absent) {
     vec2 dx = scale_rotation * (is_first ? uv_dx.xy : uv_dx.zw);
     vec2 dy = scale_rotation * (is_first ? uv_dy.xy : uv_dy.zw);
     return textureGrad(textures[kind], scale_rotation * set + record.offset, dx, dy);
+}
+
+// The normal that a texture of normals asks for in a frame.
+vec3 bend_normal(uint kind, float scale, mat3 frame) {
+    if (!has_texture(kind)) return frame[2];
+    vec3 mapped = read_texture(kind, vec4(0.5, 0.5, 1.0, 1.0)).xyz * 2.0 - 1.0;
+    mapped.xy *= scale;
+    vec3 bent = frame * mapped;
+    return dot(bent, bent) > 1e-12 ? normalize(bent) : frame[2];
 }
 
 // How much of the base colour's alpha, as it was read, is coverage: level 0 of its texture holds alpha, all others the share of
@@ -90,16 +99,11 @@ void main() {
     base *= read_texture(TEXTURE_BASE_COLOR, vec4(1.0));
     if (HAS_ALPHA_MASK && is_cut_out(base.a, most_alpha)) discard;
 
-    vec3 normal = normalize(normal_world);
-    if (IS_DOUBLE_SIDED && !gl_FrontFacing) normal = -normal;
-    mat3 frame = frame_from_tangent(normal, tangent_world.xyz, tangent_world.w);
-    if (has_texture(TEXTURE_NORMAL)) {
-        vec3 mapped = read_texture(TEXTURE_NORMAL, vec4(0.5, 0.5, 1.0, 1.0)).xyz * 2.0 - 1.0;
-        mapped.xy *= material.normal_scale;
-        vec3 bent = frame * mapped;
-        normal = dot(bent, bent) > 1e-12 ? normalize(bent) : normal;
-        frame = frame_from_tangent(normal, frame[0], tangent_world.w);
-    }
+    float handedness = tangent_world.w;
+    mat3 frame = frame_from_tangent(normalize(normal_world), tangent_world.xyz, handedness);
+    vec3 coat_normal = bend_normal(TEXTURE_CLEARCOAT_NORMAL, material.clearcoat_normal_scale, frame);
+    if (has_texture(TEXTURE_NORMAL))
+        frame = frame_from_tangent(bend_normal(TEXTURE_NORMAL, material.normal_scale, frame), frame[0], handedness);
 
     vec4 direction_strength = read_texture(TEXTURE_ANISOTROPY, vec4(1.0, 0.5, 1.0, 1.0));
     float anisotropy = material.anisotropy * direction_strength.b;
@@ -108,6 +112,12 @@ void main() {
         float length2 = dot(direction, direction);
         direction = length2 > 1e-4 ? direction * inversesqrt(length2) : vec2(1.0, 0.0);
         frame[0] = direction.x * frame[0] + direction.y * frame[1];
+    }
+    // Seen from behind the mapped normals turn around, and tangent and bitangent stay: what is brushed lies on both sides the same way.
+    if (IS_DOUBLE_SIDED && !gl_FrontFacing) {
+        frame[2] = -frame[2];
+        coat_normal = -coat_normal;
+        handedness = -handedness;
     }
 
     vec4 metallic_roughness = read_texture(TEXTURE_METALLIC_ROUGHNESS, vec4(1.0));
@@ -123,9 +133,9 @@ void main() {
     float coat = material.clearcoat * read_texture(TEXTURE_CLEARCOAT, vec4(1.0)).r;
     float coat_roughness = material.clearcoat_roughness * read_texture(TEXTURE_CLEARCOAT_ROUGHNESS, vec4(1.0)).g;
 
-    surface = pack_surface(normal, frame[0], tangent_world.w, draw.material);
+    surface = pack_surface(frame[2], frame[0], handedness, draw.material);
     diffuse_out = round_to_half(vec4(mapped.diffuse * occlusion, mapped.roughness.x));
     specular_out = round_to_half(vec4(mapped.specular, mapped.roughness.y));
     emissive_out = round_to_half(vec4(emissive, mapped.specular.r + mapped.grazing.r));
-    coat_out = round_to_half(vec4(coat, slope_from_perceptual(coat_roughness), 0.0, 0.0));
+    coat_out = uvec2(packHalf2x16(vec2(coat, slope_from_perceptual(coat_roughness))), packSnorm2x16(octahedral_encode(coat_normal)));
 }

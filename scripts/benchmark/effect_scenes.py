@@ -39,7 +39,10 @@ def _png(pixels: np.ndarray) -> str:
 def textured_sphere(
     path: Path, textures: dict[str, np.ndarray], has_colors: bool = False, **fields: object
 ) -> Path:
-    """Write the unit sphere as glTF with 8-bit textures by the name of their slot; fields of its material."""
+    """Write the unit sphere as glTF with 8-bit textures by their slots' names; fields of its material.
+
+    Textures of a clear coat make one.
+    """
     mesh = Mesh.sphere()
     arrays = {
         "POSITION": (mesh.positions, "VEC3"),
@@ -63,13 +66,19 @@ def textured_sphere(
             attributes[name] = len(accessors) - 1
     slots = {name: {"index": k} for k, name in enumerate(textures)}
     material: dict = {"pbrMetallicRoughness": {"roughnessFactor": 0.45, "metallicFactor": 1.0}}
+    coat: dict = {"clearcoatFactor": 1.0, "clearcoatRoughnessFactor": 0.3}
     for name, slot in slots.items():
-        (material["pbrMetallicRoughness"] if "Color" in name or "metallic" in name else material)[name] = slot
+        is_base = "Color" in name or "metallic" in name
+        home = coat if "clearcoat" in name else material["pbrMetallicRoughness"] if is_base else material
+        home[name] = slot
+    if any("clearcoat" in name for name in slots):
+        material["extensions"] = {"KHR_materials_clearcoat": coat}
     if "emissiveTexture" in slots:
         material["emissiveFactor"] = [1, 1, 1]
     material |= fields
     document = {
         "asset": {"version": "2.0"},
+        "extensionsUsed": list(material.get("extensions", {})),
         "scenes": [{"nodes": [0]}],
         "nodes": [{"mesh": 0}],
         "meshes": [
@@ -110,6 +119,13 @@ def _texture_rows(folder: Path, environment: Environment) -> Iterator[Row]:
     for kind, (zero, present) in kinds.items():
         scenes = (absent, load("zero", {kind: zero}), load("present", {kind: present}))
         yield kind.removesuffix("Texture") + " texture", ("surface", "shade"), scenes, (1, 1, 1)
+    weight = {"clearcoatTexture": np.full((256, 256, 3), 255)}
+    coats = (
+        load("coat", weight),
+        load("zero", weight | {"clearcoatNormalTexture": flat}),
+        load("present", weight | {"clearcoatNormalTexture": bumps}),
+    )
+    yield "clear coat normal", ("surface", "shade"), coats, (1, 1, 1)
 
 
 def _mask_and_unlit_rows(folder: Path, environment: Environment) -> Iterator[Row]:

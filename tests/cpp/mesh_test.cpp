@@ -125,6 +125,22 @@ TEST(Tangents, FollowUAndGreenPointsToThePicturesTop) {
         EXPECT_EQ(tangent, glm::vec4(-1, 0, 0, -1));
 }
 
+TEST(Tangents, FollowTheCoordinatesThatATextureIsReadBy) {
+    const auto tangent_of = [](const glm::mat2& scale_rotation) {
+        Mesh mesh = make_quad();
+        compute_tangents(mesh, 0, scale_rotation);
+        EXPECT_EQ(mesh.positions.size(), 4u);
+        EXPECT_EQ(mesh.uv0, make_quad().uv0);
+        return mesh.tangents[0];
+    };
+    // u' = v and v' = -u: the picture turns clockwise. By columns.
+    EXPECT_EQ(tangent_of({0, -1, 1, 0}), glm::vec4(0, -1, 0, 1));
+    EXPECT_EQ(tangent_of({-2, 0, 0, -3}), glm::vec4(-1, 0, 0, 1));
+    EXPECT_EQ(tangent_of({-1, 0, 0, 1}), glm::vec4(-1, 0, 0, -1));
+    EXPECT_EQ(tangent_of({1, 0, 0, -1}), glm::vec4(1, 0, 0, -1));
+    EXPECT_NEAR(glm::length(glm::vec3(tangent_of(glm::mat2(0.0f)))), 1.0f, 1e-6f); // any frame, but a frame
+}
+
 TEST(Tangents, MirroredNeighboursSplitTheirSharedVertices) {
     Mesh mesh; // two squares side by side, the texture mirrored at x = 1
     mesh.positions = {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {0, 1, 0}, {1, 1, 0}, {2, 1, 0}};

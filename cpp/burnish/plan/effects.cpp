@@ -5,28 +5,12 @@
 #include <set>
 
 #include "burnish/error.h"
+#include "burnish/plan/material_traits.h"
 #include "burnish/sampling/matched_view_table.h"
+#include "burnish/scene/texture_kinds.h"
 
 namespace burnish {
 namespace {
-
-struct TextureKind {
-    const char* name;
-    TextureUse MetallicRoughness::*use;
-};
-
-constexpr TextureKind TEXTURE_KIND_NAMES[] = {
-    {"base colour texture", &MetallicRoughness::base_color_texture},
-    {"metallic-roughness texture", &MetallicRoughness::metallic_roughness_texture},
-    {"normal mapping", &MetallicRoughness::normal_texture},
-    {"occlusion texture", &MetallicRoughness::occlusion_texture},
-    {"emissive texture", &MetallicRoughness::emissive_texture},
-    {"specular texture", &MetallicRoughness::specular_texture},
-    {"specular colour texture", &MetallicRoughness::specular_color_texture},
-    {"anisotropy texture", &MetallicRoughness::anisotropy_texture},
-    {"clear coat texture", &MetallicRoughness::clearcoat_texture},
-    {"clear coat roughness texture", &MetallicRoughness::clearcoat_roughness_texture},
-};
 
 /// The materials that objects show, each once.
 std::vector<const Material*> visible_materials(const Scene& scene) {
@@ -55,10 +39,6 @@ void add_material_line(const Scene& scene, Plan& plan, const std::string& name, 
     std::copy_if(all.begin(), all.end(), std::back_inserter(some),
                  [&](const Material* one) { return asks(*one); });
     plan.effects.push_back({name, !some.empty(), some.empty() ? off_reason : listed(all, some)});
-}
-
-bool any_lobe(const Material& material, const std::function<bool(const KurtLobe&)>& asks) {
-    return std::any_of(material.lobes.begin(), material.lobes.end(), asks);
 }
 
 size_t set_count(const Plan& plan, MapLookup lookup) {
@@ -105,32 +85,6 @@ std::string why_from_buffer(const ShadeTraits& traits, const PlanSettings& setti
 }
 
 } // namespace
-
-bool has_texture(const Material& material, TextureUse MetallicRoughness::*which) {
-    return material.source && (*material.source.*which).is_used();
-}
-
-bool is_varying(const Material& material) {
-    return material.source &&
-           (material.source->has_vertex_color ||
-            std::any_of(std::begin(TEXTURE_KIND_NAMES), std::end(TEXTURE_KIND_NAMES),
-                        [&](const TextureKind& kind) { return has_texture(material, kind.use); }));
-}
-
-bool has_diffuse(const Material& material) {
-    return material.diffuse != glm::vec3(0.0f) ||
-           has_texture(
-               material,
-               &MetallicRoughness::metallic_roughness_texture); // may be less metallic than its factor
-}
-
-bool has_emissive(const Material& material) {
-    return material.emissive != glm::vec3(0.0f);
-}
-
-bool has_coat(const Material& material) {
-    return material.source && material.source->clearcoat > 0.0f;
-}
 
 std::string describe(const ShadeClass& one, const Scene& scene, const Plan& plan, size_t constant_count) {
     std::vector<const Material*> some;
@@ -196,13 +150,11 @@ void add_effect_lines(const Scene& scene, Plan& plan) {
     add_lobe_effect("energy conservation", "no lobe asks for it", [](const Material& one) {
         return any_lobe(one, [](const KurtLobe& lobe) { return lobe.conserve_energy && lobe.alpha > 0.0f; });
     });
-    add_lobe_effect("anisotropy", "every lobe is round", [](const Material& one) {
-        return any_lobe(one, [](const KurtLobe& lobe) { return lobe.is_anisotropic(); }) ||
-               has_texture(one, &MetallicRoughness::anisotropy_texture);
-    });
+    add_lobe_effect("anisotropy", "every lobe is round", is_brushed);
+    add_lobe_effect("clear coat normal", "no clear coat lies over a normal map or has one", has_coat_normal);
     add("diffuse", "every diffuse reflectance is 0", has_diffuse);
     add("emissive", "no material emits", has_emissive);
-    for (const TextureKind& kind : TEXTURE_KIND_NAMES)
+    for (const TextureKind& kind : TEXTURE_KINDS)
         add(kind.name, "no material has one",
             [&](const Material& one) { return has_texture(one, kind.use); });
     add("vertex colour", "no material has vertex colours",
@@ -246,6 +198,21 @@ void add_effect_lines(const Scene& scene, Plan& plan) {
     plan.effects.push_back(
         {"accumulation", plan.settings.spp > 1,
          plan.settings.spp > 1 ? message(plan.settings.spp, " jittered pictures are averaged") : "spp = 1"});
+}
+
+void warn_of_missing_tangents(const Scene& scene, Plan& plan) {
+    if (!plan.settings.has_lobes) return;
+    std::set<uint32_t> warned;
+    for (const Object& object : scene.objects) {
+        if (object.mesh >= scene.meshes.size()) continue; // points bring their tangents
+        const Mesh& mesh = scene.meshes[object.mesh];
+        const bool has_some = !mesh.tangents.empty() || !mesh.uv0.empty() || !mesh.uv1.empty();
+        if (has_some || !needs_tangent(scene.materials[object.material])) continue;
+        if (!warned.insert(object.mesh).second) continue;
+        plan.warnings.push_back(message("mesh \"", mesh.name,
+                                        "\": expected tangents or texture coordinates, got none: what is "
+                                        "brushed on it follows the longitude around its y axis"));
+    }
 }
 
 void add_pass_lines(Plan& plan) {

@@ -7,6 +7,7 @@
 
 #include "burnish/error.h"
 #include "burnish/plan/effects.h"
+#include "burnish/plan/material_traits.h"
 #include "burnish/sampling/matched_view_table.h"
 #include "shared/constants.h"
 
@@ -122,6 +123,7 @@ ShadeTraits traits_of(const Scene& scene, const Plan& plan, const MaterialInstan
     ShadeTraits traits;
     traits.has_varying = is_varying(material);
     traits.has_coat = traits.has_varying && has_coat(material);
+    traits.has_coat_normal = has_coat_normal(material);
     traits.has_diffuse = has_diffuse(material);
     traits.has_emissive = has_emissive(material);
     const Environment& environment = *plan.environments[instance.environment];
@@ -133,7 +135,6 @@ ShadeTraits traits_of(const Scene& scene, const Plan& plan, const MaterialInstan
     traits.lobe_count = uint32_t(material.lobes.size());
     for (const KurtLobe& lobe : material.lobes) {
         traits.has_fresnel |= lobe.has_fresnel() || traits.has_varying;
-        traits.has_tangent |= lobe.is_anisotropic();
         traits.conserves_energy |=
             lobe.conserve_energy && lobe.alpha > 0.0f; // with alpha = 0 nothing is gained
         const AlphaForm form = lobe.alpha == 0.0f   ? AlphaForm::zero
@@ -142,7 +143,7 @@ ShadeTraits traits_of(const Scene& scene, const Plan& plan, const MaterialInstan
         const bool is_first = &lobe == &material.lobes.front();
         traits.alpha = is_first || traits.alpha == form ? form : AlphaForm::general;
     }
-    traits.has_tangent |= has_texture(material, &MetallicRoughness::anisotropy_texture);
+    traits.has_tangent = is_brushed(material);
     if (traits.lobe_count == 0 || std::holds_alternative<Reference>(plan.settings.sampler)) return traits;
     if (std::holds_alternative<Matched>(plan.settings.sampler)) {
         traits.table = matched_form(material, fit_tables, traits);
@@ -189,7 +190,8 @@ void share_pipelines(ShadeTraits& traits) {
     traits.has_fresnel = traits.has_tangent = traits.conserves_energy = true;
     traits.has_wide_components = traits.table == TableForm::matched;
     traits.alpha = AlphaForm::general;
-    traits.has_coat = traits.has_varying && traits.lobe_count > 1;
+    traits.has_coat |= traits.has_varying && traits.lobe_count > 1;
+    traits.has_coat_normal = traits.has_coat;
     if (traits.sun_count > 0) traits.sun_count = shared::MAX_SUNS; // those that are not there have no flux
 }
 
@@ -286,6 +288,7 @@ Plan make_plan(const Scene& scene, const PlanSettings& settings, SunCache& suns)
     add_classes(scene, plan);
     warn_of_nothing_drawn(scene, plan);
     if (!scene.environment) plan.warnings.push_back("the scene has no environment: only emission is seen");
+    warn_of_missing_tangents(scene, plan);
     if (plan.has_tangent && std::holds_alternative<Prefiltered>(settings.sampler))
         plan.warnings.push_back(
             "prefiltered maps are round: brushed lobes reflect as the round ones of slope sqrt(mx my)");

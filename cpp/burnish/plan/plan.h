@@ -65,7 +65,8 @@ struct ShadeTraits {
     bool has_diffuse = false;
     bool has_emissive = false;
     bool has_varying = false;
-    bool has_coat = false;
+    bool has_coat = false;        ///< of varying materials: their last lobe
+    bool has_coat_normal = false; ///< the coat's normal is not the base's
     bool has_map_rotation = false;
     TableForm table = TableForm::none;
     bool has_wide_components = false; ///< of matched tables: more points for a component's mean direction

@@ -5,6 +5,7 @@
 
 #include <glm/gtc/packing.hpp>
 
+#include "burnish/plan/material_traits.h"
 #include "burnish/render/mask_coverage.h"
 #include "burnish/render/octahedral.h"
 #include "burnish/vulkan/device.h"
@@ -83,6 +84,23 @@ TextureVertex pack_texture_vertex(const Mesh& mesh, size_t k) {
     return vertex;
 }
 
+/// By mesh: whether some object's material asks for tangents that it lacks, yet has texture coordinates for.
+std::vector<bool> meshes_to_derive(const Scene& scene) {
+    std::vector<bool> result(scene.meshes.size(), false);
+    for (const Object& object : scene.objects) {
+        if (object.mesh >= scene.meshes.size() || object.material >= scene.materials.size()) continue;
+        const Mesh& mesh = scene.meshes[object.mesh];
+        if (mesh.tangents.empty() && !(mesh.uv0.empty() && mesh.uv1.empty()))
+            result[object.mesh] = result[object.mesh] || needs_tangent(scene.materials[object.material]);
+    }
+    return result;
+}
+
+Mesh derive_tangents(Mesh mesh) {
+    compute_tangents(mesh, mesh.uv0.empty() ? 1 : 0);
+    return mesh;
+}
+
 uint64_t mix(uint64_t hash, const void* data, size_t bytes) {
     constexpr uint64_t factor = 0x9fb21c651e98df25ull;
     const auto* next = static_cast<const unsigned char*>(data);
@@ -144,6 +162,8 @@ uint64_t fingerprint(const Scene& scene) {
         hash = mix(hash, mesh.colors);
         hash = mix(hash, mesh.indices);
     }
+    for (const bool is_derived : meshes_to_derive(scene))
+        hash = hash * 31 + (is_derived ? 1 : 0);
     for (const TextureImage& image : scene.images)
         hash = mix(hash ^ (uint64_t(image.width) << 32), image.rgba);
     return hash;
@@ -160,7 +180,10 @@ void GpuScene::upload_meshes(const vulkan::DevicePointer& device, const Scene& s
     std::vector<uint32_t> indices;
     for (const Mesh& mesh : scene.meshes)
         has_texture_vertices_ |= !mesh.uv0.empty() || !mesh.colors.empty();
-    for (const Mesh& mesh : scene.meshes) {
+    const std::vector<bool> to_derive = meshes_to_derive(scene);
+    for (size_t m = 0; m < scene.meshes.size(); ++m) {
+        const Mesh derived = to_derive[m] ? derive_tangents(scene.meshes[m]) : Mesh{};
+        const Mesh& mesh = to_derive[m] ? derived : scene.meshes[m];
         meshes_.push_back({uint32_t(indices.size()), uint32_t(mesh.indices.size()), int32_t(vertices.size()),
                            center_of(mesh)});
         MeshRange& range = meshes_.back();

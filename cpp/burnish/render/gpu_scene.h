@@ -69,7 +69,7 @@ private:
     std::map<std::array<int, 5>, vulkan::Sampler> samplers_;
 };
 
-/// Changes when any vertex, index or texel of the scene does.
+/// Changes when any vertex, index or texel of the scene does, or which meshes must derive their tangents.
 uint64_t fingerprint(const Scene& scene);
 
 } // namespace burnish::render

@@ -104,7 +104,7 @@ ShadePass::Stage ShadePass::make_stage(Pipelines& pipelines, const std::string& 
     bind_image(shared::BINDING_VARYING_DIFFUSE, has_varying ? targets->varying_diffuse : unused_.varying);
     bind_image(shared::BINDING_VARYING_SPECULAR, has_varying ? targets->varying_specular : unused_.varying);
     bind_image(shared::BINDING_VARYING_EMISSIVE, has_varying ? targets->varying_emissive : unused_.varying);
-    bind_image(shared::BINDING_VARYING_COAT, has_varying ? targets->varying_coat : unused_.varying);
+    bind_image(shared::BINDING_VARYING_COAT, has_varying ? targets->varying_coat : unused_.surface);
     return stage;
 }
 

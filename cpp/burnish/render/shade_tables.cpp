@@ -2,10 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 #include <set>
 
 #include "burnish/error.h"
+#include "burnish/plan/material_traits.h"
+#include "burnish/render/table_writer.h"
 #include "burnish/sampling/prefilter_table.h"
 #include "burnish/vulkan/device.h"
 #include "burnish/vulkan/transfer.h"
@@ -14,120 +15,11 @@
 namespace burnish::render {
 namespace {
 
-SampleTable build_table(const Sampler& sampler, TableForm form, glm::vec2 roughness, uint32_t face_size) {
-    const auto build = [&](const auto& kind) {
-        return form == TableForm::scaled ? build_scaled_table(kind, face_size)
-                                         : build_sample_table(kind, roughness, face_size);
-    };
-    if (const auto* regular = std::get_if<Regular>(&sampler)) return build(*regular);
-    if (const auto* importance = std::get_if<Importance>(&sampler)) return build(*importance);
-    return {};
-}
-
 bool needs_albedo(const Sampler& sampler) {
     const auto* regular = std::get_if<Regular>(&sampler);
     return (regular && regular->normalization == Normalization::furnace) ||
            std::holds_alternative<Matched>(sampler) || std::holds_alternative<Prefiltered>(sampler);
 }
-
-/// Kernels read samples in phases of four.
-uint32_t whole_phases(uint32_t samples) {
-    return (samples + 3) / 4 * 4;
-}
-
-float mean(glm::vec3 v) {
-    return (v.r + v.g + v.b) / 3.0f;
-}
-
-/// Appends tables to one buffer, each once.
-class TableWriter {
-public:
-    struct Range {
-        uint32_t begin, count;
-    };
-
-    TableWriter(const Plan& plan, TableCache& cache) : plan_(plan), cache_(cache) {}
-
-    const SampleTable& table(TableForm form, glm::vec2 roughness, uint32_t face_size) {
-        const std::array<float, 4> key = {float(form), roughness.x, roughness.y, float(face_size)};
-        auto found = tables_.find(key);
-        if (found == tables_.end())
-            found =
-                tables_.emplace(key, build_table(plan_.settings.sampler, form, roughness, face_size)).first;
-        return found->second;
-    }
-
-    /// With at least so many entries behind its first.
-    Range samples(const SampleTable& table, uint32_t count) {
-        const std::pair key(&table, count);
-        auto found = ranges_.find(key);
-        if (found == ranges_.end()) {
-            const uint32_t used = uint32_t(table.entries.size());
-            auto entries = std::make_shared<std::vector<glm::vec4>>(table.entries);
-            entries->resize(std::max(whole_phases(used), count), glm::vec4(0.0f));
-            found = ranges_.emplace(key, Range{append(std::move(entries)), used}).first;
-        }
-        return found->second;
-    }
-
-    /// First entry of the mixtures of a count.
-    uint32_t mixtures(uint32_t count) {
-        if (!mixtures_begin_) mixtures_begin_ = append(cache_.mixtures(count));
-        return *mixtures_begin_;
-    }
-
-    /// First entry of the lookups of one lobe by view, and its columns.
-    Range view_table(uint32_t count, const KurtLobe& lobe, bool has_schlick, uint32_t face_size) {
-        MatchedLobe key{count, lobe.roughness.x, lobe.roughness.y, lobe.alpha, 1.0f,
-                        0.0f,  has_schlick,      face_size};
-        const float specular = mean(lobe.weight * lobe.r0), total = mean(lobe.weight);
-        if (lobe.has_fresnel() && total > 0.0f) {
-            // Where nothing is reflected, some direction must still come out.
-            key.specular = std::clamp(specular / total, 1e-3f, 1.0f);
-            key.grazing = 1.0f - key.specular;
-        }
-        auto found = view_begins_.find(key);
-        if (found == view_begins_.end())
-            found = view_begins_.emplace(key, append(cache_.view_table(key))).first;
-        return {found->second, view_columns(key)};
-    }
-
-    /// First entry and azimuth nodes of the albedo table of a lobe.
-    Range albedo(bool is_varying, glm::vec2 roughness, float alpha) {
-        const std::array<float, 3> key =
-            is_varying ? std::array{0.0f, 0.0f, alpha} : std::array{roughness.x, roughness.y, alpha};
-        auto found = albedo_ranges_.find(key);
-        if (found == albedo_ranges_.end()) {
-            const std::vector<glm::vec2>& table =
-                is_varying ? cache_.varying_albedo(alpha) : cache_.albedo(roughness, alpha).entries;
-            const uint32_t nodes = is_varying ? 1 : cache_.albedo(roughness, alpha).width_nodes;
-            found = albedo_ranges_.emplace(key, Range{uint32_t(albedo_entries.size()), nodes}).first;
-            for (size_t k = 0; k < table.size(); ++k) // each with the next: a lookup reads both at once
-                albedo_entries.emplace_back(table[k], table[std::min(k + 1, table.size() - 1)]);
-        }
-        return found->second;
-    }
-
-    std::vector<SampleEntries> sample_tables;
-    std::vector<glm::vec4> albedo_entries;
-
-private:
-    uint32_t append(SampleEntries entries) {
-        const uint32_t begin = entry_count_;
-        entry_count_ += uint32_t(entries->size());
-        sample_tables.push_back(std::move(entries));
-        return begin;
-    }
-
-    const Plan& plan_;
-    TableCache& cache_;
-    uint32_t entry_count_ = 0;
-    std::optional<uint32_t> mixtures_begin_;
-    std::map<MatchedLobe, uint32_t> view_begins_;
-    std::map<std::array<float, 4>, SampleTable> tables_;
-    std::map<std::pair<const SampleTable*, uint32_t>, Range> ranges_;
-    std::map<std::array<float, 3>, Range> albedo_ranges_;
-};
 
 shared::LobeRecord lobe_record(const KurtLobe& lobe) {
     shared::LobeRecord record{};
@@ -141,11 +33,15 @@ shared::LobeRecord lobe_record(const KurtLobe& lobe) {
     return record;
 }
 
+bool is_coat(uint32_t which, const ShadeTraits& traits) {
+    return traits.has_coat && which + 1 == traits.lobe_count;
+}
+
 /// The coat's weight is read from its texture, so the record holds the lobe of weight one.
 KurtLobe lobe_of(const Material& material, uint32_t which, const ShadeTraits& traits) {
     KurtLobe lobe =
         which < material.lobes.size() ? material.lobes[which] : KurtLobe{.weight = glm::vec3(0.0f)};
-    if (traits.has_coat && which == 1) lobe.weight = glm::vec3(1.0f);
+    if (is_coat(which, traits)) lobe.weight = glm::vec3(1.0f);
     return lobe;
 }
 
@@ -238,7 +134,9 @@ ShadeTables make_shade_tables(const vulkan::DevicePointer& device, const Scene& 
                 counts[instance.shade_class].insert(samples.count);
             }
             if (needs_albedo(plan.settings.sampler) || traits.conserves_energy) {
-                const auto albedo = writer.albedo(traits.has_varying, lobe.roughness, lobe.alpha);
+                const bool is_varying_brushed = is_brushed(material) && !is_coat(which, traits);
+                const auto albedo = traits.has_varying ? writer.varying_albedo(is_varying_brushed, lobe.alpha)
+                                                       : writer.albedo(lobe.roughness, lobe.alpha);
                 record.albedo_begin = albedo.begin;
                 record.albedo_width_nodes = albedo.count;
             }

@@ -93,6 +93,7 @@ vulkan::SpecializationConstants common_constants(const Plan& plan, uint32_t shad
         .set(shared::SPEC_HAS_EMISSIVE, traits.has_emissive)
         .set(shared::SPEC_HAS_VARYING, traits.has_varying)
         .set(shared::SPEC_HAS_COAT, traits.has_coat)
+        .set(shared::SPEC_HAS_COAT_NORMAL, traits.has_coat_normal)
         .set(shared::SPEC_HAS_MAP_ROTATION, traits.has_map_rotation)
         .set(shared::SPEC_SHADE_CLASS, shade_class);
     add_lookup_constants(constants, plan.map_sets[traits.map_set]);

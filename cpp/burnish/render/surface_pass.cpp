@@ -2,7 +2,8 @@
 
 #include <algorithm>
 
-#include "burnish/plan/effects.h"
+#include "burnish/plan/material_traits.h"
+#include "burnish/scene/texture_kinds.h"
 #include "burnish/vulkan/device.h"
 #include "burnish/vulkan/transfer.h"
 #include "shared/constants.h"
@@ -10,30 +11,10 @@
 namespace burnish::render {
 namespace {
 
-struct TextureSlot {
-    uint32_t kind;
-    TextureUse MetallicRoughness::*use;
-    bool is_srgb;
-};
-
-constexpr TextureSlot TEXTURE_SLOTS[] = {
-    {shared::TEXTURE_BASE_COLOR, &MetallicRoughness::base_color_texture, true},
-    {shared::TEXTURE_METALLIC_ROUGHNESS, &MetallicRoughness::metallic_roughness_texture, false},
-    {shared::TEXTURE_NORMAL, &MetallicRoughness::normal_texture, false},
-    {shared::TEXTURE_OCCLUSION, &MetallicRoughness::occlusion_texture, false},
-    {shared::TEXTURE_EMISSIVE, &MetallicRoughness::emissive_texture, true},
-    {shared::TEXTURE_SPECULAR, &MetallicRoughness::specular_texture, false},
-    {shared::TEXTURE_SPECULAR_COLOR, &MetallicRoughness::specular_color_texture, true},
-    {shared::TEXTURE_ANISOTROPY, &MetallicRoughness::anisotropy_texture, false},
-    {shared::TEXTURE_CLEARCOAT, &MetallicRoughness::clearcoat_texture, false},
-    {shared::TEXTURE_CLEARCOAT_ROUGHNESS, &MetallicRoughness::clearcoat_roughness_texture, false},
-};
-static_assert(std::size(TEXTURE_SLOTS) == shared::TEXTURE_KINDS);
-
 uint32_t texture_mask(const Material& material) {
     uint32_t mask = 0;
-    for (const TextureSlot& slot : TEXTURE_SLOTS)
-        if (has_texture(material, slot.use)) mask |= 1u << slot.kind;
+    for (const TextureKind& kind : TEXTURE_KINDS)
+        if (has_texture(material, kind.use)) mask |= 1u << kind.kind;
     return mask;
 }
 
@@ -70,6 +51,7 @@ shared::SurfaceRecord surface_record(const Material& material, uint32_t texture_
     record.normal_scale = source.normal_scale;
     record.occlusion_strength = source.occlusion_strength;
     record.texture_begin = texture_begin;
+    record.clearcoat_normal_scale = source.clearcoat_normal_scale;
     return record;
 }
 
@@ -117,6 +99,7 @@ vulkan::Image target(const vulkan::DevicePointer& device, VkFormat format, uint3
 
 constexpr VkFormat SURFACE_FORMAT = VK_FORMAT_R32G32_UINT;
 constexpr VkFormat VARYING_FORMAT = VK_FORMAT_R16G16B16A16_SFLOAT;
+constexpr VkFormat COAT_FORMAT = VK_FORMAT_R32G32_UINT;
 constexpr VkFormat DEPTH_FORMAT = VK_FORMAT_D32_SFLOAT;
 
 } // namespace
@@ -128,8 +111,10 @@ FrameTargets::FrameTargets(const vulkan::DevicePointer& device, uint32_t width_p
     const VkImageUsageFlags color = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_STORAGE_BIT;
     surface = target(device, SURFACE_FORMAT, width, height, color);
     depth = target(device, DEPTH_FORMAT, width, height, VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT);
-    for (vulkan::Image* image : {&varying_diffuse, &varying_specular, &varying_emissive, &varying_coat})
-        *image = target(device, VARYING_FORMAT, is_varying ? width : 1, is_varying ? height : 1, color);
+    const uint32_t varying_width = is_varying ? width : 1, varying_height = is_varying ? height : 1;
+    for (vulkan::Image* image : {&varying_diffuse, &varying_specular, &varying_emissive})
+        *image = target(device, VARYING_FORMAT, varying_width, varying_height, color);
+    varying_coat = target(device, COAT_FORMAT, varying_width, varying_height, color);
     const VkDeviceSize pixels = VkDeviceSize(width) * height;
     tile_capacity = ((width + shared::TILE_SIZE - 1) / shared::TILE_SIZE) *
                     ((height + shared::TILE_SIZE - 1) / shared::TILE_SIZE);
@@ -155,7 +140,7 @@ SurfacePass::SurfacePass(Pipelines& pipelines, GpuScene& gpu_scene, const Scene&
                          const glm::dvec3& eye, const FrameTargets& targets)
     : gpu_scene_(gpu_scene), has_varying_(plan.has_varying), has_tangent_(plan.has_tangent) {
     for (const MaterialInstance& instance : plan.instances)
-        has_tangent_ |= has_texture(scene.materials[instance.material], &MetallicRoughness::normal_texture);
+        has_tangent_ |= needs_tangent(scene.materials[instance.material]);
     add_records(pipelines.device(), scene, plan);
     for (size_t k = 0; k < scene.objects.size(); ++k) {
         const Object& object = scene.objects[k];
@@ -179,11 +164,11 @@ void SurfacePass::add_records(const vulkan::DevicePointer& device, const Scene& 
     for (const MaterialInstance& instance : plan.instances) {
         const Material& material = scene.materials[instance.material];
         surfaces.push_back(surface_record(material, uint32_t(textures.size())));
-        for (const TextureSlot& slot : TEXTURE_SLOTS) {
-            const TextureUse use = material.source ? *material.source.*slot.use : TextureUse{};
+        for (const TextureKind& kind : TEXTURE_KINDS) {
+            const TextureUse use = material.source ? *material.source.*kind.use : TextureUse{};
             const glm::mat2& m = use.uv_scale_rotation;
             textures.push_back(
-                {glm::vec4(m[0], m[1]), use.uv_offset, use.uv_set, coverage_levels(material, slot.kind)});
+                {glm::vec4(m[0], m[1]), use.uv_offset, use.uv_set, coverage_levels(material, kind.kind)});
         }
     }
     if (surfaces.empty()) {
@@ -206,7 +191,9 @@ const vulkan::GraphicsPipeline& SurfacePass::pipeline_for(Pipelines& pipelines, 
             {1, has_texture_vertices ? GpuScene::TEXTURE_VERTEX_BYTES : 0, VK_VERTEX_INPUT_RATE_VERTEX});
     settings.vertex_attributes = vertex_attributes(is_varying);
     settings.color_formats = {SURFACE_FORMAT};
-    if (is_varying) settings.color_formats.insert(settings.color_formats.end(), 4, VARYING_FORMAT);
+    if (is_varying)
+        settings.color_formats.insert(settings.color_formats.end(),
+                                      {VARYING_FORMAT, VARYING_FORMAT, VARYING_FORMAT, COAT_FORMAT});
     settings.depth_format = DEPTH_FORMAT;
     settings.cull_mode = material.double_sided ? VK_CULL_MODE_NONE : VK_CULL_MODE_BACK_BIT;
     settings.front_face = is_mirrored ? VK_FRONT_FACE_CLOCKWISE : VK_FRONT_FACE_COUNTER_CLOCKWISE;
@@ -233,12 +220,12 @@ const vulkan::DescriptorSet& SurfacePass::set_for(const vulkan::GraphicsPipeline
     if (!is_varying) return set;
     set.bind(shared::BINDING_SURFACE_MATERIALS, surface_records_);
     set.bind(shared::BINDING_SURFACE_TEXTURE_RECORDS, texture_records_);
-    for (const TextureSlot& slot : TEXTURE_SLOTS) {
+    for (const TextureKind& kind : TEXTURE_KINDS) {
         const BoundTexture texture =
-            gpu_scene_.texture(material.source ? *material.source.*slot.use : TextureUse{}, slot.is_srgb,
-                               texel_cutoff(material, slot.kind));
+            gpu_scene_.texture(material.source ? *material.source.*kind.use : TextureUse{}, kind.is_srgb,
+                               texel_cutoff(material, kind.kind));
         set.bind(shared::BINDING_SURFACE_TEXTURES, texture.image->view(), *texture.sampler,
-                 VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, slot.kind);
+                 VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, kind.kind);
     }
     return set;
 }

@@ -18,8 +18,8 @@ struct FrameTargets {
     uint32_t class_count = 0; ///< that there is room for
     vulkan::Image surface;    ///< RG32UI: see pack_surface in glsl/lib/frame.glsl
     vulkan::Image depth;      ///< D32, reverse z
-    vulkan::Image varying_diffuse, varying_specular, varying_emissive,
-        varying_coat;           ///< one texel unless has_varying
+    vulkan::Image varying_diffuse, varying_specular, varying_emissive; ///< one texel unless has_varying
+    vulkan::Image varying_coat; ///< RG32UI, the same: see coat_out in glsl/surface/surface_varying.frag.glsl
     vulkan::Buffer radiance;    ///< vec4 a pixel and one more; one where display output needs no sum
     vulkan::Buffer sum;         ///< vec4 a pixel, with accumulation; else one
     vulkan::Buffer display;     ///< a byte a channel, a pixel and one more, with display output; else one

@@ -1,6 +1,5 @@
 #include "burnish/render/table_cache.h"
 
-#include <cmath>
 #include <span>
 
 #include "burnish/sampling/matched_table.h"
@@ -60,17 +59,15 @@ std::shared_ptr<const SampleBuffer> TableCache::sample_buffer(const vulkan::Devi
     return samples_ = std::move(made);
 }
 
-const std::vector<glm::vec2>& TableCache::varying_albedo(float alpha) {
-    auto found = varying_albedo_.find(alpha);
-    if (found != varying_albedo_.end()) return found->second;
-    std::vector<glm::vec2> rows;
-    for (uint32_t k = 0; k < shared::ALBEDO_ROUGHNESS_NODES; ++k) {
-        const float m =
-            std::pow(shared::ALBEDO_LEAST_ROUGHNESS, 1.0f - float(k) / (shared::ALBEDO_ROUGHNESS_NODES - 1));
-        const AlbedoTable row = build_albedo_table(glm::vec2(m), alpha);
-        rows.insert(rows.end(), row.entries.begin(), row.entries.end());
-    }
-    return varying_albedo_.emplace(alpha, std::move(rows)).first->second;
+const std::vector<glm::vec2>& TableCache::varying_albedo(float alpha, bool is_brushed) {
+    const std::pair key(alpha, is_brushed);
+    auto found = varying_albedo_.find(key);
+    if (found == varying_albedo_.end())
+        found = varying_albedo_
+                    .emplace(key, is_brushed ? build_brushed_albedo_table(alpha)
+                                             : build_varying_albedo_table(alpha))
+                    .first;
+    return found->second;
 }
 
 const IrradianceCoefficients& TableCache::irradiance(const std::shared_ptr<const Environment>& environment) {

@@ -26,8 +26,8 @@ struct SampleBuffer {
 class TableCache {
 public:
     const AlbedoTable& albedo(glm::vec2 roughness, float alpha);
-    /// One row for each of ALBEDO_ROUGHNESS_NODES roughnesses.
-    const std::vector<glm::vec2>& varying_albedo(float alpha);
+    /// Of all round lobes, or of all brushed ones.
+    const std::vector<glm::vec2>& varying_albedo(float alpha, bool is_brushed);
     SampleEntries mixtures(uint32_t count);
     SampleEntries view_table(const MatchedLobe& lobe);
     /// The tables one after the other, on the device: the last ones again if they are the same.
@@ -39,7 +39,7 @@ public:
 
 private:
     std::map<std::array<float, 3>, AlbedoTable> albedo_;
-    std::map<float, std::vector<glm::vec2>> varying_albedo_;
+    std::map<std::pair<float, bool>, std::vector<glm::vec2>> varying_albedo_;
     std::map<uint32_t, SampleEntries> mixtures_;
     std::map<MatchedLobe, SampleEntries> view_tables_;
     uint64_t view_entries_ = 0; ///< of all view_tables_

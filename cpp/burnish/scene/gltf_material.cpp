@@ -252,8 +252,10 @@ void MaterialLoader::read_extensions(const tinygltf::Material& from, Material& m
             factor_of(*extension, "clearcoatRoughnessFactor", 0.0f, 0.0f, 1.0f, where);
         source.clearcoat_texture = texture_of(*extension, "clearcoatTexture", where);
         source.clearcoat_roughness_texture = texture_of(*extension, "clearcoatRoughnessTexture", where);
+        source.clearcoat_normal_texture = texture_of(*extension, "clearcoatNormalTexture", where);
         if (extension->Has("clearcoatNormalTexture"))
-            warn(where + ".clearcoatNormalTexture: not supported, the coat is smooth");
+            source.clearcoat_normal_scale =
+                static_cast<float>(number_or(extension->Get("clearcoatNormalTexture"), "scale", 1.0));
     }
     if (auto* extension = find_extension(from.extensions, "KHR_materials_emissive_strength")) {
         float strength = factor_of(*extension, "emissiveStrength", 1.0f, 0.0f, LARGEST, where);

@@ -5,6 +5,7 @@
 
 #include "burnish/error.h"
 #include "burnish/scene/check.h"
+#include "burnish/scene/texture_kinds.h"
 
 namespace burnish::gltf {
 namespace {
@@ -245,27 +246,28 @@ void complete_mesh(Mesh& mesh, const Material& material, AccessorReader& reader,
     if (!material.source) return;
     const MetallicRoughness& source = *material.source;
     bool needs_uv[2] = {};
-    for (const TextureUse* use :
-         {&source.base_color_texture, &source.metallic_roughness_texture, &source.normal_texture,
-          &source.occlusion_texture, &source.emissive_texture, &source.specular_texture,
-          &source.specular_color_texture, &source.anisotropy_texture, &source.clearcoat_texture,
-          &source.clearcoat_roughness_texture})
-        if (use->is_used()) needs_uv[use->uv_set] = true;
+    for (const TextureKind& kind : TEXTURE_KINDS)
+        if ((source.*kind.use).is_used()) needs_uv[(source.*kind.use).uv_set] = true;
     bool has_uv[2] = {!mesh.uv0.empty(), !mesh.uv1.empty()};
 
-    bool has_normal_map = source.normal_texture.is_used();
+    bool has_normal_map = source.normal_texture.is_used() || source.clearcoat_normal_texture.is_used();
     bool is_anisotropic = source.anisotropy > 0.0f;
     if ((has_normal_map || is_anisotropic) && mesh.tangents.empty()) {
-        // KHR_materials_anisotropy: the normal map's set, else that of the anisotropy texture, else the first
-        // there is.
-        uint32_t uv_set = has_normal_map                        ? source.normal_texture.uv_set
-                          : source.anisotropy_texture.is_used() ? source.anisotropy_texture.uv_set
-                          : has_uv[0] || !has_uv[1]             ? 0u
-                                                                : 1u;
-        if (has_uv[uv_set]) {
-            constexpr uint64_t BYTES_PER_CORNER = 192; // while they are derived
+        // There is one frame for all textures of directions: that of the coordinates by which the normal map
+        // is read, as KHR_materials_anisotropy asks, else the anisotropy texture, else the coat's normal map,
+        // else of the first coordinates there are.
+        TextureUse use;
+        use.uv_set = has_uv[0] || !has_uv[1] ? 0u : 1u;
+        for (const TextureUse* first :
+             {&source.normal_texture, &source.anisotropy_texture, &source.clearcoat_normal_texture}) {
+            if (!first->is_used()) continue;
+            use = *first;
+            break;
+        }
+        if (has_uv[use.uv_set]) {
+            constexpr uint64_t BYTES_PER_CORNER = 208; // while they are derived
             reader.require_room(mesh.indices.size() * BYTES_PER_CORNER, where);
-            compute_tangents(mesh, uv_set);
+            compute_tangents(mesh, use.uv_set, use.uv_scale_rotation);
             reader.charge(mesh.positions.size() * sizeof(glm::vec4), where);
         } else {
             compute_tangents_around_y(mesh);

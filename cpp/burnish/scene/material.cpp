@@ -24,9 +24,10 @@ void validate(const MetallicRoughness& source) {
     require_range("source.clearcoat", source.clearcoat, 0.0f, 1.0f);
     require_range("source.clearcoat_roughness", source.clearcoat_roughness, 0.0f, 1.0f);
     require_range("source.occlusion_strength", source.occlusion_strength, 0.0f, 1.0f);
-    if (!std::isfinite(source.anisotropy_rotation) || !std::isfinite(source.normal_scale))
-        throw std::invalid_argument(
-            "source: expected finite anisotropy_rotation and normal_scale, got a non-finite number");
+    if (!std::isfinite(source.anisotropy_rotation) || !std::isfinite(source.normal_scale) ||
+        !std::isfinite(source.clearcoat_normal_scale))
+        throw std::invalid_argument("source: expected finite anisotropy_rotation, normal_scale and "
+                                    "clearcoat_normal_scale, got a non-finite number");
 }
 
 } // namespace

@@ -50,6 +50,7 @@ struct MetallicRoughness {
     float clearcoat = 0.0f;           ///< KHR_materials_clearcoat
     float clearcoat_roughness = 0.0f; ///< perceptual
     float normal_scale = 1.0f;
+    float clearcoat_normal_scale = 1.0f;
     float occlusion_strength = 1.0f;
     bool has_vertex_color = false;
     bool is_unlit = false; ///< KHR_materials_unlit: `emissive` is the base colour, nothing reflects
@@ -64,6 +65,7 @@ struct MetallicRoughness {
     TextureUse anisotropy_texture;          ///< linear, rg = direction, b = strength
     TextureUse clearcoat_texture;           ///< linear, r
     TextureUse clearcoat_roughness_texture; ///< linear, g
+    TextureUse clearcoat_normal_texture;    ///< linear; without it the coat has the mesh's normal
 };
 
 struct Material {

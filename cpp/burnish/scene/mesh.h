@@ -35,8 +35,9 @@ void compute_flat_normals(Mesh& mesh);
 
 /// Tangents along growing u by MikkTSpace's rules (maths in the .cpp). Splits vertices where they must
 /// differ. w = -1 where v grows along cross(normal, tangent): glTF's green points up. Needs uv (`uv_set` 0 or
-/// 1) and normals; throws std::invalid_argument where they are absent.
-void compute_tangents(Mesh& mesh, uint32_t uv_set);
+/// 1) and normals; throws std::invalid_argument where they are absent. (u, v) = uv_scale_rotation * uv, as a
+/// texture reads them (TextureUse): where it is turned or mirrored, so are its tangents.
+void compute_tangents(Mesh& mesh, uint32_t uv_set, const glm::mat2& uv_scale_rotation = glm::mat2(1.0f));
 
 /// Tangents for meshes without texture coordinates: around the object's y axis (longitude), as turned metal
 /// is brushed.

@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "burnish/scene/check.h"
+#include "burnish/scene/texture_kinds.h"
 
 namespace burnish {
 namespace {
@@ -41,17 +42,14 @@ void within(const std::string& where, const Check& check) {
 }
 
 void validate_textures(const Scene& scene, const MetallicRoughness& source) {
-    for (const TextureUse* use :
-         {&source.base_color_texture, &source.metallic_roughness_texture, &source.normal_texture,
-          &source.occlusion_texture, &source.emissive_texture, &source.specular_texture,
-          &source.specular_color_texture, &source.anisotropy_texture, &source.clearcoat_texture,
-          &source.clearcoat_roughness_texture}) {
-        if (!use->is_used()) continue;
-        if (static_cast<size_t>(use->image) >= scene.images.size())
+    for (const TextureKind& kind : TEXTURE_KINDS) {
+        const TextureUse& use = source.*kind.use;
+        if (!use.is_used()) continue;
+        if (static_cast<size_t>(use.image) >= scene.images.size())
             throw std::invalid_argument(message("source.texture.image: expected an index below ",
-                                                scene.images.size(), ", got ", use->image));
-        if (use->uv_set > 1)
-            throw std::invalid_argument(message("source.texture.uv_set: expected 0 or 1, got ", use->uv_set));
+                                                scene.images.size(), ", got ", use.image));
+        if (use.uv_set > 1)
+            throw std::invalid_argument(message("source.texture.uv_set: expected 0 or 1, got ", use.uv_set));
     }
 }
 

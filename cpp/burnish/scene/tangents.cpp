@@ -223,8 +223,8 @@ void assign(Mesh& mesh, DisjointSets& groups, const std::vector<glm::dvec3>& sum
 
 } // namespace
 
-void compute_tangents(Mesh& mesh, uint32_t uv_set) {
-    const std::vector<glm::vec2> uv = uv_set == 0 ? mesh.uv0 : mesh.uv1;
+void compute_tangents(Mesh& mesh, uint32_t uv_set, const glm::mat2& uv_scale_rotation) {
+    std::vector<glm::vec2> uv = uv_set == 0 ? mesh.uv0 : mesh.uv1;
     if (uv_set > 1) throw std::invalid_argument(message("uv_set: expected 0 or 1, got ", uv_set));
     if (uv.size() != mesh.positions.size() || uv.empty())
         throw std::invalid_argument(
@@ -233,7 +233,10 @@ void compute_tangents(Mesh& mesh, uint32_t uv_set) {
         throw std::invalid_argument(
             message("normals: expected as many as positions, got ", mesh.normals.size()));
 
-    std::vector<uint32_t> points = weld(mesh, uv);
+    std::vector<uint32_t> points =
+        weld(mesh, uv); // before the texture's turn, which may bring points together
+    for (glm::vec2& entry : uv)
+        entry = glm::vec2(glm::dmat2(uv_scale_rotation) * glm::dvec2(entry));
     std::vector<uint32_t> corner_points(mesh.indices.size());
     for (size_t i = 0; i < mesh.indices.size(); ++i)
         corner_points[i] = points[mesh.indices[i]];

@@ -75,10 +75,14 @@ def local_frame(
     """Return the lobe's frame at surface points.
 
     Normals and views may have any length. The view's cosine is raised to 1e-4 and the view made unit again:
-    views from behind the shading normal graze the surface.
+    views from behind the shading normal graze the surface. Tangents of four numbers have the bitangent's sign
+    in the last, as glTF's; those of three stand for right-handed frames.
     """
-    n, t, omega_o = np.broadcast_arrays(normalize(n), as_array(t), normalize(omega_o))
-    tangent, bitangent = rotate_frame(*frame_from_tangent(n, t), rotation)
+    t = as_array(t)
+    sign = t[..., 3:] if t.shape[-1] == 4 else np.ones((*t.shape[:-1], 1))
+    n, t, sign, omega_o = np.broadcast_arrays(normalize(n), t[..., :3], sign, normalize(omega_o))
+    tangent, bitangent = frame_from_tangent(n, t)
+    tangent, bitangent = rotate_frame(tangent, sign * bitangent, rotation)
     cos_o = np.maximum(dot(omega_o, n), MIN_COS_O)
     local = np.stack([dot(omega_o, tangent), dot(omega_o, bitangent), cos_o], axis=-1)
     return LocalFrame(tangent, bitangent, n, normalize(local))

@@ -49,7 +49,7 @@ def map_metallic_roughness(source: MetallicRoughness, emissive: Any = 0.0) -> Ma
     m = max(roughness^2, 1e-3), alpha = .5, f0 = min(((ior-1)/(ior+1))^2 specular_color, 1) specular.
     Base lobe: weight = mix(specular, 1, metallic), r0 = mix(f0, base, metallic)/weight, none for weight 0.
     Diffuse = base (1 - metallic)(1 - max(f0)). Anisotropy: m_x = mix(m, 1, strength^2).
-    Clearcoat: one more lobe of r0 .04 and weight = factor.
+    Clearcoat: one more lobe of r0 .04 and weight = factor. Lobes conserve energy.
     """
     base = np.broadcast_to(as_array(source.base_color), 3)
     color = np.broadcast_to(as_array(source.specular_color), 3)
@@ -60,9 +60,9 @@ def map_metallic_roughness(source: MetallicRoughness, emissive: Any = 0.0) -> Ma
         m = max(source.roughness**2, MIN_ROUGHNESS)
         mx = float(_mix(m, 1.0, source.anisotropy**2))
         r0 = np.clip(_mix(f0, base, source.metallic) / weight, 0.0, 1.0)
-        lobes.append(KurtLobe((mx, m), r0, 0.5, (weight,) * 3, source.anisotropy_rotation))
+        lobes.append(KurtLobe((mx, m), r0, 0.5, (weight,) * 3, source.anisotropy_rotation, True))
     if source.clearcoat > 0:
         m = max(source.clearcoat_roughness**2, MIN_ROUGHNESS)
-        lobes.append(KurtLobe((m, m), CLEARCOAT_R0, 0.5, (source.clearcoat,) * 3))
+        lobes.append(KurtLobe((m, m), CLEARCOAT_R0, 0.5, (source.clearcoat,) * 3, 0.0, True))
     diffuse = base * (1 - source.metallic) * (1 - float(np.max(f0)))
     return Material(diffuse, lobes, np.broadcast_to(as_array(emissive), 3))

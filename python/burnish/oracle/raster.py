@@ -73,7 +73,7 @@ class Triangles:
 
     corners: Array  # (n, 3 corners, 3)
     normals: Array  # (n, 3 corners, 3), unit
-    tangents: Array  # (n, 3 corners, 3), 0 where the mesh has none
+    tangents: Array  # (n, 3 corners, 4), w = sign of the bitangent; 0, 0, 0, 1 where the mesh has none
     owner: IntArray  # (n,) index of the object
     cull: BoolArray  # (n,) invisible from behind
     order: IntArray  # (n,) triangles in the order of the leaves
@@ -84,7 +84,7 @@ def gather_triangles(objects: list[Object], without: int | None = None) -> Trian
     """Bring all objects but number `without` into the world and sort their triangles into boxes.
 
     Normals go by the inverse transpose, tangents by the matrix itself; a mirroring matrix turns triangles
-    around, which is undone so that their front stays their front.
+    around, which is undone so that their front stays their front, and makes right-handed frames left-handed.
     """
     parts: list[tuple[Array, Array, Array, IntArray, BoolArray]] = []
     for index, item in enumerate(objects):
@@ -97,9 +97,10 @@ def gather_triangles(objects: list[Object], without: int | None = None) -> Trian
         # The cofactor matrix is the inverse transpose times the determinant, whose sign must not matter.
         cofactor = np.stack([np.cross(linear[(i + 1) % 3], linear[(i + 2) % 3]) for i in range(3)])
         normals = normalize(as_array(item.normals) @ cofactor.T) * (-1 if mirrored else 1)
-        tangents = np.zeros_like(positions)
+        tangents = np.tile([0.0, 0.0, 0.0, 1.0], (len(positions), 1))
         if item.tangents is not None:
-            tangents = normalize(as_array(item.tangents)[:, :3] @ linear.T)
+            tangents[:, :3] = normalize(as_array(item.tangents)[:, :3] @ linear.T)
+            tangents[:, 3] = as_array(item.tangents)[:, 3] * (-1 if mirrored else 1)
         faces = np.asarray(item.indices, dtype=np.int64).reshape(-1, 3)
         if mirrored:
             faces = faces[:, ::-1]
@@ -117,7 +118,7 @@ def gather_triangles(objects: list[Object], without: int | None = None) -> Trian
     if not parts:
         empty = np.zeros((0, 3, 3))
         none = np.zeros(0, dtype=np.int64)
-        return Triangles(empty, empty, empty, none, none.astype(bool), none, [])
+        return Triangles(empty, empty, np.zeros((0, 3, 4)), none, none.astype(bool), none, [])
     corners, normals, tangents, owner, cull = (np.concatenate(arrays) for arrays in zip(*parts, strict=True))
     order, nodes = _build_boxes(corners)
     return Triangles(corners, normals, tangents, owner, cull, order, nodes)

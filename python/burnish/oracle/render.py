@@ -31,12 +31,18 @@ class Picture:
 
 
 def _surface(triangles: Triangles, hits: Hits, views: Array) -> tuple[Array, Array]:
-    """Unit shading normals and tangents at the hits; seen from behind, the normal turns to the eye."""
+    """Unit shading normals, and tangents (n, 4), at the hits.
+
+    Seen from behind, the normal turns to the eye. Tangent and bitangent stay, so that the frame's handedness
+    changes.
+    """
     normals = normalize(interpolate(triangles.normals, hits))
     corners = triangles.corners[np.maximum(hits.triangle, 0)]
     face = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-    normals = np.where(dot(face, views)[:, None] < 0, -normals, normals)
-    return normals, interpolate(triangles.tangents, hits)
+    side = np.where(dot(face, views) < 0, -1.0, 1.0)[:, None]
+    tangents = interpolate(triangles.tangents, hits)
+    tangents[:, 3:] *= side
+    return side * normals, tangents
 
 
 def render(
@@ -118,8 +124,8 @@ def _cast_picture(
             material = objects[index].material
             pixels = seen[own]
             facing = facing_normal(normal[pixels], views[own])
-            in_map = (v @ turn for v in (facing, tangents[own], views[own]))
-            lit = shade(env_levels, material, sampler, *in_map)
+            tangent = np.concatenate([tangents[own, :3] @ turn, tangents[own, 3:]], axis=1)
+            lit = shade(env_levels, material, sampler, facing @ turn, tangent, views[own] @ turn)
             emitted = as_array(getattr(material, "emissive", 0.0))
             color[pixels] = gain * (lit - emitted) + emitted
     alpha = met.astype(np.float64).reshape(size)

@@ -74,13 +74,16 @@ def shade(
         From `build_pyramid`; for Prefiltered from `prefilter_environment`.
     material : Material, or `burnish.Material`
     sampler : Regular, Importance, Matched, Prefiltered or Reference, the oracle's or burnish's
-    normals, tangents, views : (..., 3)
+    normals, views : (..., 3)
+    tangents : (..., 3), or (..., 4) with the bitangent's sign in the last
 
     Returns
     -------
     radiance : (..., 3)
     """
-    normals, tangents, views = np.broadcast_arrays(as_array(normals), as_array(tangents), as_array(views))
+    normals, tangents, views = as_array(normals), as_array(tangents), as_array(views)
+    shape = np.broadcast_shapes(normals.shape[:-1], tangents.shape[:-1], views.shape[:-1])
+    normals, tangents, views = (np.broadcast_to(v, (*shape, v.shape[-1])) for v in (normals, tangents, views))
     total = np.zeros(normals.shape)
     if np.any(as_array(material.diffuse) > 0):
         total = total + shade_diffuse(project_cube(env_levels[0]), normals, material.diffuse)

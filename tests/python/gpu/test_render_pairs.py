@@ -29,14 +29,6 @@ FEATURES = [
     "mirrored",
 ]
 PAIRS = [*((one,) for one in FEATURES), *combinations(FEATURES, 2)]
-COAT_LOST = "a coat over a varying base without lobe is drawn in the lobe's place"
-NOT_YET = {
-    ("vertex colour", "coat"): COAT_LOST,
-    ("coat", "normal map"): COAT_LOST,
-    ("coat", "mask"): COAT_LOST,
-    ("coat", "texture transform"): COAT_LOST,
-    ("normal map", "double-sided"): "seen from behind the mapped normal does not turn around as a whole",
-}
 
 TEXELS, PIXELS = 4, 16
 # Colours pass through half precision, 2^-11 each; the light is held in texels of 1/32.
@@ -169,12 +161,7 @@ def expected_picture(features, pictures, coat):
     return color, shows
 
 
-def marked(features):
-    reason = NOT_YET.get(features)
-    return pytest.param(features, marks=[pytest.mark.xfail(strict=True, reason=reason)] if reason else [])
-
-
-@pytest.mark.parametrize("features", map(marked, PAIRS), ids=" and ".join)
+@pytest.mark.parametrize("features", PAIRS, ids=" and ".join)
 def test_pair_of_features_has_its_closed_form(device, environment, pictures, features, tmp_path):
     scene = write(tmp_path / "pair.gltf", features, pictures)
     scene.environment = environment

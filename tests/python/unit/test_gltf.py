@@ -22,7 +22,7 @@ EXPECTED = [
     ("Box/Box.glb", 1, 12, (1, 1, 1), 0, None),
     ("Cameras/Cameras.gltf", 1, 2, (1, 0.707, 0.708), 0, None),
     ("ClearCoatCarPaint/ClearCoatCarPaint.glb", 1, 3072, (1, 0.98, 1), 1, None),
-    ("ClearCoatTest/ClearCoatTest.glb", 27, 37116, (10.458, 13.105, 1.11), 6, "clearcoatNormalTexture"),
+    ("ClearCoatTest/ClearCoatTest.glb", 27, 37116, (10.458, 13.105, 1.11), 6, "BLEND is drawn as MASK"),
     ("EmissiveStrengthTest/EmissiveStrengthTest.glb", 6, 90, (16.004, 10.01, 3.999), 1, None),
     (
         "GlamVelvetSofa/GlamVelvetSofa.glb",

@@ -9,6 +9,7 @@ from burnish.oracle.frame import (
     orthonormal_basis,
     rotate_frame,
 )
+from burnish.oracle.tangent_space import brushed_tangent, mapped_normal, seen_from_behind
 
 HARD_NORMALS = normalize(
     [
@@ -83,3 +84,23 @@ def test_octahedral_corners():
         octahedral_encode([[0, 0, 1], [1, 0, 0], [0, -1, 0]]), [[0, 0], [1, 0], [0, -1]]
     )
     np.testing.assert_allclose(np.abs(octahedral_encode([0, 0, -1])), [1, 1])
+
+
+def test_textures_of_directions_follow_tangent_and_bitangent():
+    up, frame = [0.0, 0.0, 1.0], [0.0, 1.0, 0.0, -1.0]  # tangent +y, bitangent -(z cross y) = +x
+    np.testing.assert_allclose(mapped_normal(up, frame, [0.5, 0.5, 1.0]), up, atol=1e-15)
+    np.testing.assert_allclose(mapped_normal(up, frame, [0.8, 0.5, 0.9]), [0, 0.6, 0.8], atol=1e-12)
+    np.testing.assert_allclose(mapped_normal(up, frame, [0.5, 0.8, 0.9]), [0.6, 0, 0.8], atol=1e-12)
+    np.testing.assert_allclose(mapped_normal(up, frame, [0.5, 1.0, 0.9], 0.6), [0.6, 0, 0.8], atol=1e-12)
+    np.testing.assert_allclose(brushed_tangent(up, frame, [0.8, 0.9]), [0.8, 0.6, 0, -1], atol=1e-12)
+    np.testing.assert_allclose(brushed_tangent(up, frame, [0.502, 0.498]), frame, atol=1e-12)
+
+
+def test_both_sides_of_a_surface_are_brushed_the_same_way():
+    normal, frame = [0.0, 0.6, 0.8], [1.0, 0.0, 0.0, 1.0]
+    back, turned = seen_from_behind(normal, frame)
+    np.testing.assert_array_equal(back, [0, -0.6, -0.8])
+    texel = [0.7, 0.9]
+    np.testing.assert_allclose(
+        brushed_tangent(back, turned, texel)[:3], brushed_tangent(normal, frame, texel)[:3], atol=1e-12
+    )

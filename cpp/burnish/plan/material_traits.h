@@ -1,0 +1,24 @@
+// What one material calls for.
+#pragma once
+
+#include <functional>
+
+#include "burnish/scene/material.h"
+
+namespace burnish {
+
+bool has_texture(const Material& material, TextureUse MetallicRoughness::*which);
+/// Textures or vertex colours make its attributes vary over the surface.
+bool is_varying(const Material& material);
+bool any_lobe(const Material& material, const std::function<bool(const KurtLobe&)>& asks);
+bool has_diffuse(const Material& material);
+bool has_emissive(const Material& material);
+bool has_coat(const Material& material);
+/// The coat's normal is not the base's: that has a normal map, or the coat has one.
+bool has_coat_normal(const Material& material);
+/// A lobe reflects differently along tangent and bitangent.
+bool is_brushed(const Material& material);
+/// What it looks like depends on the tangents of its mesh.
+bool needs_tangent(const Material& material);
+
+} // namespace burnish

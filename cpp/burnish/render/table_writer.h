@@ -1,0 +1,133 @@
+// Sample and albedo tables one after the other, as ShadeTables hold them.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "burnish/plan/plan.h"
+#include "burnish/render/table_cache.h"
+#include "burnish/sampling/sample_table.h"
+
+namespace burnish::render {
+
+inline SampleTable build_table(const Sampler& sampler, TableForm form, glm::vec2 roughness,
+                               uint32_t face_size) {
+    const auto build = [&](const auto& kind) {
+        return form == TableForm::scaled ? build_scaled_table(kind, face_size)
+                                         : build_sample_table(kind, roughness, face_size);
+    };
+    if (const auto* regular = std::get_if<Regular>(&sampler)) return build(*regular);
+    if (const auto* importance = std::get_if<Importance>(&sampler)) return build(*importance);
+    return {};
+}
+
+/// Kernels read samples in phases of four.
+inline uint32_t whole_phases(uint32_t samples) {
+    return (samples + 3) / 4 * 4;
+}
+
+inline float mean(glm::vec3 v) {
+    return (v.r + v.g + v.b) / 3.0f;
+}
+
+/// Appends tables to one buffer, each once.
+class TableWriter {
+public:
+    struct Range {
+        uint32_t begin, count;
+    };
+
+    TableWriter(const Plan& plan, TableCache& cache) : plan_(plan), cache_(cache) {}
+
+    const SampleTable& table(TableForm form, glm::vec2 roughness, uint32_t face_size) {
+        const std::array<float, 4> key = {float(form), roughness.x, roughness.y, float(face_size)};
+        auto found = tables_.find(key);
+        if (found == tables_.end())
+            found =
+                tables_.emplace(key, build_table(plan_.settings.sampler, form, roughness, face_size)).first;
+        return found->second;
+    }
+
+    /// With at least so many entries behind its first.
+    Range samples(const SampleTable& table, uint32_t count) {
+        const std::pair key(&table, count);
+        auto found = ranges_.find(key);
+        if (found == ranges_.end()) {
+            const uint32_t used = uint32_t(table.entries.size());
+            auto entries = std::make_shared<std::vector<glm::vec4>>(table.entries);
+            entries->resize(std::max(whole_phases(used), count), glm::vec4(0.0f));
+            found = ranges_.emplace(key, Range{append(std::move(entries)), used}).first;
+        }
+        return found->second;
+    }
+
+    /// First entry of the mixtures of a count.
+    uint32_t mixtures(uint32_t count) {
+        if (!mixtures_begin_) mixtures_begin_ = append(cache_.mixtures(count));
+        return *mixtures_begin_;
+    }
+
+    /// First entry of the lookups of one lobe by view, and its columns.
+    Range view_table(uint32_t count, const KurtLobe& lobe, bool has_schlick, uint32_t face_size) {
+        MatchedLobe key{count, lobe.roughness.x, lobe.roughness.y, lobe.alpha, 1.0f,
+                        0.0f,  has_schlick,      face_size};
+        const float specular = mean(lobe.weight * lobe.r0), total = mean(lobe.weight);
+        if (lobe.has_fresnel() && total > 0.0f) {
+            // Where nothing is reflected, some direction must still come out.
+            key.specular = std::clamp(specular / total, 1e-3f, 1.0f);
+            key.grazing = 1.0f - key.specular;
+        }
+        auto found = view_begins_.find(key);
+        if (found == view_begins_.end())
+            found = view_begins_.emplace(key, append(cache_.view_table(key))).first;
+        return {found->second, view_columns(key)};
+    }
+
+    /// First entry and azimuth nodes of the albedo table of a lobe of one roughness.
+    Range albedo(glm::vec2 roughness, float alpha) {
+        const AlbedoTable& table = cache_.albedo(roughness, alpha);
+        return albedo({roughness.x, roughness.y, alpha}, table.entries, table.width_nodes);
+    }
+
+    /// The same of lobes whose roughness varies; brushed ones have more than one azimuth.
+    Range varying_albedo(bool is_brushed, float alpha) {
+        const float nodes = is_brushed ? 2.0f : 1.0f;
+        return albedo({0.0f, nodes, alpha}, cache_.varying_albedo(alpha, is_brushed), uint32_t(nodes));
+    }
+
+    std::vector<SampleEntries> sample_tables;
+    std::vector<glm::vec4> albedo_entries;
+
+private:
+    Range albedo(const std::array<float, 3>& key, const std::vector<glm::vec2>& table, uint32_t nodes) {
+        auto found = albedo_ranges_.find(key);
+        if (found == albedo_ranges_.end()) {
+            found = albedo_ranges_.emplace(key, Range{uint32_t(albedo_entries.size()), nodes}).first;
+            for (size_t k = 0; k < table.size(); ++k) // each with the next: a lookup reads both at once
+                albedo_entries.emplace_back(table[k], table[std::min(k + 1, table.size() - 1)]);
+        }
+        return found->second;
+    }
+
+    uint32_t append(SampleEntries entries) {
+        const uint32_t begin = entry_count_;
+        entry_count_ += uint32_t(entries->size());
+        sample_tables.push_back(std::move(entries));
+        return begin;
+    }
+
+    const Plan& plan_;
+    TableCache& cache_;
+    uint32_t entry_count_ = 0;
+    std::optional<uint32_t> mixtures_begin_;
+    std::map<MatchedLobe, uint32_t> view_begins_;
+    std::map<std::array<float, 4>, SampleTable> tables_;
+    std::map<std::pair<const SampleTable*, uint32_t>, Range> ranges_;
+    std::map<std::array<float, 3>, Range> albedo_ranges_;
+};
+
+} // namespace burnish::render
