@@ -8,6 +8,8 @@
 namespace burnish {
 
 bool has_diffuse(const Material& material);
+/// How the sampler sees the light on diffuse surfaces.
+const char* describe_diffuse(const Sampler& sampler);
 bool has_emissive(const Material& material);
 bool has_coat(const Material& material);
 /// Textures or vertex colours make its attributes vary over the surface.
