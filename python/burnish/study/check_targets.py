@@ -2,7 +2,7 @@
 
 Pictures of scenes under environments that the error model was not fitted to. The error that is reached is
 that of the very picture that was asked for: of lobes alone against a sum over every texel, with ``--diffuse``
-of scenes with diffuse parts against a progressive reference of a fifth of the smallest target. Beside it
+of scenes with diffuse parts against a progressive reference of a third of the smallest target. Beside it
 stands what the next cheaper count of the same sampler would have reached: the choice is too careful where
 that meets the target too.
 """
