@@ -86,6 +86,7 @@ py::dict report_dict(const render::Report& report) {
     result["classes"] = classes;
     result["triangles"] = report.triangles;
     result["stopped"] = stopped_list(report);
+    result["diffuse_error"] = report.diffuse_error;
     result["standard_error"] = report.standard_error;
     std::vector<std::string> warnings = report.warnings;
     warnings.insert(warnings.end(), report.problems.begin(), report.problems.end());

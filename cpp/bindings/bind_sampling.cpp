@@ -44,6 +44,8 @@ const Names<Normalization> NORMALIZATIONS{"normalization",
                                            {"published", Normalization::published}}};
 const Names<PointSet> POINT_SETS{"points",
                                  {{"fibonacci", PointSet::fibonacci}, {"hammersley", PointSet::hammersley}}};
+const Names<DiffuseForm> DIFFUSE_FORMS{"diffuse",
+                                       {{"cube", DiffuseForm::cube}, {"harmonics", DiffuseForm::harmonics}}};
 const Names<ReferenceMethod> METHODS{"method",
                                      {{"auto", ReferenceMethod::automatic},
                                       {"progressive", ReferenceMethod::progressive},
@@ -60,6 +62,21 @@ template <typename Kind>
 Kind checked(Kind sampler) {
     validate(Sampler(sampler));
     return sampler;
+}
+
+/// For reprs, which name it where it is not the default.
+template <typename Kind>
+std::string diffuse_argument(const Kind& sampler, const char* before) {
+    if (sampler.diffuse == DiffuseForm::cube) return "";
+    return message(before, "diffuse='", DIFFUSE_FORMS.name(sampler.diffuse), "'");
+}
+
+/// The property that all samplers share but the reference.
+template <typename Kind>
+void add_diffuse(py::class_<Kind>& kind) {
+    kind.def_property_readonly(
+        "diffuse", [](const Kind& self) { return DIFFUSE_FORMS.name(self.diffuse); },
+        "How it sees the light on diffuse surfaces.");
 }
 
 py::array_t<double> sample_pattern(const Pair& roughness, const std::string& spacing, int64_t circles,
@@ -82,8 +99,9 @@ py::array_t<float> offsets_of(int64_t count) {
 } // namespace
 
 void bind_sampling(py::module_& m) {
-    py::class_<Regular>(m, "Regular",
-                        R"(Half-vectors on equally spaced circles (Regular Sampling, CGI 2014, section 5).
+    py::class_<Regular> regular(
+        m, "Regular",
+        R"(Half-vectors on equally spaced circles (Regular Sampling, CGI 2014, section 5).
 
 Parameters
 ----------
@@ -97,15 +115,19 @@ normalization : "furnace", "projected" or "published"
     Divide by the weights' sum and multiply by the exact albedo; divide by the sum of D cos; or by the sum of D
     (eq. 18, biased dark for wide lobes).
 mip_bias : float, -16..16
-    Levels added to the footprint's.)")
+    Levels added to the footprint's.
+diffuse : "cube" or "harmonics"
+    Light on diffuse surfaces: exact sums over the map in a small cube, at most .15 % off, or nine spherical
+    harmonics (Ramamoorthi and Hanrahan 2001), several per cent off under small lights; the report says how good.)");
+    regular
         .def(py::init([](int64_t samples, float threshold, const std::string& footprint,
-                         const std::string& normalization, float mip_bias) {
+                         const std::string& normalization, float mip_bias, const std::string& diffuse) {
                  return checked(Regular{count_of("samples", samples, 1, MAX_SAMPLES), threshold,
-                                        FOOTPRINTS.of(footprint), NORMALIZATIONS.of(normalization),
-                                        mip_bias});
+                                        FOOTPRINTS.of(footprint), NORMALIZATIONS.of(normalization), mip_bias,
+                                        DIFFUSE_FORMS.of(diffuse)});
              }),
              py::arg("samples") = 14, py::arg("threshold") = 0.2f, py::arg("footprint") = "exact",
-             py::arg("normalization") = "furnace", py::arg("mip_bias") = 0.0f)
+             py::arg("normalization") = "furnace", py::arg("mip_bias") = 0.0f, py::arg("diffuse") = "cube")
         .def_readonly("samples", &Regular::samples, "Budget of samples.")
         .def_readonly("threshold", &Regular::threshold, "xi_0.")
         .def_property_readonly(
@@ -118,11 +140,13 @@ mip_bias : float, -16..16
         .def("__repr__", [](const Regular& self) {
             return message("Regular(samples=", self.samples, ", threshold=", self.threshold, ", footprint='",
                            FOOTPRINTS.name(self.footprint), "', normalization='",
-                           NORMALIZATIONS.name(self.normalization), "', mip_bias=", self.mip_bias, ")");
+                           NORMALIZATIONS.name(self.normalization), "', mip_bias=", self.mip_bias,
+                           diffuse_argument(self, ", "), ")");
         });
+    add_diffuse(regular);
 
-    py::class_<Importance>(m, "Importance",
-                           R"(Filtered importance sampling of the lobe (GPU Gems 3, chapter 20).
+    py::class_<Importance> importance(m, "Importance",
+                                      R"(Filtered importance sampling of the lobe (GPU Gems 3, chapter 20).
 
 Parameters
 ----------
@@ -131,22 +155,28 @@ samples : int, 1..1024
 points : "hammersley" or "fibonacci"
     Point set in the unit square; the golden-ratio lattice is the stronger.
 mip_bias : float, -16..16
-    Levels added; the chapter uses 1.)")
-        .def(py::init([](int64_t samples, const std::string& points, float mip_bias) {
-                 return checked(Importance{count_of("samples", samples, 1, MAX_SAMPLES),
-                                           POINT_SETS.of(points), mip_bias});
-             }),
-             py::arg("samples") = 14, py::arg("points") = "hammersley", py::arg("mip_bias") = 0.0f)
+    Levels added; the chapter uses 1.
+diffuse : "cube" or "harmonics"
+    As for `Regular`.)");
+    importance
+        .def(py::init(
+                 [](int64_t samples, const std::string& points, float mip_bias, const std::string& diffuse) {
+                     return checked(Importance{count_of("samples", samples, 1, MAX_SAMPLES),
+                                               POINT_SETS.of(points), mip_bias, DIFFUSE_FORMS.of(diffuse)});
+                 }),
+             py::arg("samples") = 14, py::arg("points") = "hammersley", py::arg("mip_bias") = 0.0f,
+             py::arg("diffuse") = "cube")
         .def_readonly("samples", &Importance::samples, "Lookups for each lobe.")
         .def_property_readonly(
             "points", [](const Importance& self) { return POINT_SETS.name(self.points); }, "Point set.")
         .def_readonly("mip_bias", &Importance::mip_bias, "Levels added.")
         .def("__repr__", [](const Importance& self) {
             return message("Importance(samples=", self.samples, ", points='", POINT_SETS.name(self.points),
-                           "', mip_bias=", self.mip_bias, ")");
+                           "', mip_bias=", self.mip_bias, diffuse_argument(self, ", "), ")");
         });
+    add_diffuse(importance);
 
-    py::class_<Matched>(
+    py::class_<Matched> matched(
         m, "Matched",
         R"(The variance-matched sampler: few wide lookups that together have the lobe's covariance.
 
@@ -157,31 +187,50 @@ is, so that centres and widths together have the lobe's covariance. Suns are spl
 Parameters
 ----------
 samples : int, one of 2..10, 12, 14, 16, 17, 20, 24, 30, 32, 48, 64
-    Lookups for each lobe.)")
-        .def(py::init([](int64_t samples) {
-                 return checked(Matched{count_of("samples", samples, 1, MAX_SAMPLES)});
+    Lookups for each lobe.
+diffuse : "cube" or "harmonics"
+    As for `Regular`.)");
+    matched
+        .def(py::init([](int64_t samples, const std::string& diffuse) {
+                 return checked(
+                     Matched{count_of("samples", samples, 1, MAX_SAMPLES), DIFFUSE_FORMS.of(diffuse)});
              }),
-             py::arg("samples") = 14)
+             py::arg("samples") = 14, py::arg("diffuse") = "cube")
         .def_readonly("samples", &Matched::samples, "Lookups for each lobe.")
-        .def("__repr__", [](const Matched& self) { return message("Matched(samples=", self.samples, ")"); });
+        .def("__repr__", [](const Matched& self) {
+            return message("Matched(samples=", self.samples, diffuse_argument(self, ", "), ")");
+        });
+    add_diffuse(matched);
 
-    py::class_<Prefiltered>(
+    py::class_<Prefiltered> prefiltered(
         m, "Prefiltered",
         R"(One lookup a lobe in a map prefiltered for its roughness, times the lobe's exact albedo (split sum).
 
 What most engines ship: the map is filtered once for a view along the normal, so reflections do not stretch toward
-grazing and brushed lobes are round.)")
-        .def(py::init<>())
-        .def("__repr__", [](const Prefiltered&) { return "Prefiltered()"; });
+grazing and brushed lobes are round.
 
-    py::class_<Reference>(m, "Reference", R"(The truth that others are judged by.
+Parameters
+----------
+diffuse : "cube" or "harmonics"
+    As for `Regular`.)");
+    prefiltered
+        .def(py::init([](const std::string& diffuse) { return Prefiltered{DIFFUSE_FORMS.of(diffuse)}; }),
+             py::arg("diffuse") = "cube")
+        .def("__repr__", [](const Prefiltered& self) {
+            return message("Prefiltered(", diffuse_argument(self, ""), ")");
+        });
+    add_diffuse(prefiltered);
+
+    py::class_<Reference>(
+        m, "Reference",
+        R"(The truth that others are judged by, for the diffuse part, every lobe and emission alike.
 
 Parameters
 ----------
 standard_error : float in (0, 1]
     A progressive run goes on until the root mean square of the pixels' standard errors is this fraction of the mean.
 method : "auto", "quadrature" or "progressive"
-    Sum over every level-0 texel; multiple importance sampling of lobe and map; or what fits: quadrature where
+    Sum over every level-0 texel; multiple importance sampling of the map and of lobe or cosine; or what fits: quadrature where
     that takes seconds and the lobes are wider than eight texels.
 max_samples : int >= 64
     A progressive run stops there, with a warning.)")

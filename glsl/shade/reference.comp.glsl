@@ -1,7 +1,7 @@
-// The truth a frame is judged by, one batch per dispatch. Two methods:
+// The truth a frame is judged by, one batch per dispatch. Two methods, for the diffuse part and every lobe alike:
 //   quadrature:  L = sum over level-0 texels of L_t f(i_t) cos_i solid angle_t;
-//   progressive: multiple importance sampling (balance heuristic) of lobe and map, level-0 lookups, a new random shift each
-//                batch, so that batches are independent and their spread gives the standard error.
+//   progressive: multiple importance sampling (balance heuristic) of map and lobe or cosine, level-0 lookups, a new random shift
+//                each batch, so that batches are independent and their spread gives the standard error.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
@@ -9,7 +9,6 @@
 #include "lib/cube_map.glsl"
 #include "lib/kurt_lobe.glsl"
 #include "lib/random.glsl"
-#include "lib/spherical_harmonics.glsl"
 #include "shade/albedo.glsl"
 #include "lookup/map_lookup.glsl"
 #include "shade/surface_point.glsl"
@@ -41,18 +40,53 @@ vec3 half_vector(vec3 a, vec3 b) {
     return h * inversesqrt(max(dot(h, h), 1e-20));
 }
 
-vec3 quadrature(LobeView v, uint face_size) {
+// Points of a quadrature along a face: the texels, or parts of them, as many in each.
+uint quadrature_size(MapRecord map) { return max(map.face_size, LEAST_QUADRATURE_FACE); }
+
+// Where a point of the quadrature lies, not normalised, and the light of its texel times its solid angle.
+struct LitPoint {
+    vec3 w;
+    vec3 light;
+};
+
+vec2 face_place(uvec2 texel, uint size) { return (2.0 * vec2(texel) + 1.0) / float(size) - 1.0; }
+
+LitPoint lit_point(uint index, MapRecord map) {
+    uint size = quadrature_size(map);
+    uint face = index / (size * size), in_face = index % (size * size);
+    uvec2 place = uvec2(in_face % size, in_face / size);
+    vec2 uv = face_place(place, size);
+    vec2 texel_uv = face_place(place / (size / map.face_size), map.face_size);
+    LitPoint point;
+    point.w = cube_direction(face, uv.x, uv.y);
+    point.light = look_up_finest(cube_direction(face, texel_uv.x, texel_uv.y), float(map.layer)) *
+                  texel_solid_angle(float(size * size), point.w);
+    return point;
+}
+
+uint quadrature_end(MapRecord map) {
+    uint size = quadrature_size(map);
+    return min(push.texel_end, 6u * size * size);
+}
+
+vec3 quadrature(LobeView v, MapRecord map) {
     vec3 sum = vec3(0.0);
-    uint face_texels = face_size * face_size;
-    for (uint texel = push.texel_begin; texel < min(push.texel_end, 6u * face_texels); ++texel) {
-        uint in_face = texel % face_texels;
-        vec2 uv = (2.0 * vec2(in_face % face_size, in_face / face_size) + 1.0) / float(face_size) - 1.0;
-        vec3 w = cube_direction(texel / face_texels, uv.x, uv.y);
-        vec3 local_i = normalize(w) * v.frame;
-        vec3 value = lobe_value(v, local_i, half_vector(local_i, v.local_o));
-        sum += value * texel_solid_angle(float(face_texels), w) * look_up_finest(w, v.layer);
+    for (uint index = push.texel_begin; index < quadrature_end(map); ++index) {
+        LitPoint point = lit_point(index, map);
+        vec3 local_i = normalize(point.w) * v.frame;
+        sum += lobe_value(v, local_i, half_vector(local_i, v.local_o)) * point.light;
     }
     return sum;
+}
+
+// Irradiance / pi, as all sums of diffuse light here.
+vec3 diffuse_quadrature(vec3 n, MapRecord map) {
+    vec3 sum = vec3(0.0);
+    for (uint index = push.texel_begin; index < quadrature_end(map); ++index) {
+        LitPoint point = lit_point(index, map);
+        sum += max(dot(normalize(point.w), n), 0.0) * point.light;
+    }
+    return sum / PI;
 }
 
 // Density of `draw_texel` per solid angle in direction w.
@@ -100,6 +134,33 @@ vec3 progressive(LobeView v, MapRecord map, uint seed) {
     return sum / float(push.batch_size);
 }
 
+// The cosine and the map each bring a direction, weighed by the sum of both densities.
+vec3 weigh_cosine(vec3 direction, float cos_i, MapRecord map) {
+    if (cos_i <= 0.0) return vec3(0.0);
+    float value = cos_i / PI;
+    return value * look_up_finest(direction, float(map.layer)) / max(value + texel_pdf(direction, map), 1e-20);
+}
+
+vec3 diffuse_progressive(mat3 frame, MapRecord map, uint seed) {
+    vec3 sum = vec3(0.0);
+    for (uint k = 0u; k < push.batch_size; ++k) {
+        vec2 x = recurrence_2d(k, seed);
+        float cos_i = sqrt(1.0 - x.x), sin_i = sqrt(x.x), azimuth = 2.0 * PI * x.y;
+        vec3 direction = frame * vec3(sin_i * cos(azimuth), sin_i * sin(azimuth), cos_i);
+        sum += weigh_cosine(direction, cos_i, map);
+        direction = draw_texel(k, seed, map);
+        sum += weigh_cosine(direction, dot(direction, frame[2]), map);
+    }
+    return sum / float(push.batch_size);
+}
+
+vec3 diffuse_batch(PointToShade point, MapRecord map) {
+    mat3 frame = environment_from_world(map, point.frame);
+    // Numbers of its own, apart from those of the lobes.
+    uint seed = hash_uint(point.index ^ 0x9e3779b9u) ^ hash_uint(push.batch + 0x2545f491u);
+    return IS_QUADRATURE ? diffuse_quadrature(frame[2], map) : diffuse_progressive(frame, map, seed);
+}
+
 void main() {
     PointToShade point = load_point();
     MaterialRecord material = load_material(point.material);
@@ -116,13 +177,14 @@ void main() {
         v.alpha = record.alpha;
         v.layer = float(map.layer);
         uint seed = hash_uint(point.index * 4u + which) ^ hash_uint(push.batch + 0x51633e2du);
-        vec3 light = IS_QUADRATURE ? quadrature(v, map.face_size) : progressive(v, map, seed);
+        vec3 light = IS_QUADRATURE ? quadrature(v, map) : progressive(v, map, seed);
         if (CONSERVES_ENERGY) {
             vec2 albedo = lobe_albedo(record, v.lobe.roughness, v.local_o);
             light *= conserving_scale(record, albedo, pow(max(v.local_o.z, MIN_COS), -v.alpha));
         }
         batch += light;
     }
+    if (HAS_DIFFUSE) batch += point_diffuse(point) * diffuse_batch(point, map);
     if (!point.is_mine) return;
     batch = stop_non_finite(batch, point.index, GUARD_REFERENCE);
     vec4 sum = push.batch == 0u ? vec4(0.0) : statistics[point.index];
@@ -132,8 +194,6 @@ void main() {
 
     // Quadrature batches are parts of one sum, progressive ones are estimates of it.
     vec3 radiance = IS_QUADRATURE ? sum.rgb : sum.rgb / float(push.batch + 1u);
-    if (HAS_DIFFUSE)
-        radiance += point_diffuse(point) * irradiance_over_pi(map.irradiance, environment_from_world(map, point.frame[2]));
     radiance *= map.radiance_scale;
     if (HAS_EMISSIVE) radiance += point_emissive(point);
     store_radiance(point, stop_non_finite(radiance, point.index, GUARD_REFERENCE), 1.0);

@@ -3,7 +3,7 @@
 #ifndef BURNISH_SHADE_SHADE
 #define BURNISH_SHADE_SHADE
 
-#include "lib/spherical_harmonics.glsl"
+#include "shade/diffuse.glsl"
 #include "shade/lobe.glsl"
 #include "shade/matched.glsl"
 #include "shade/matched_by_view.glsl"
@@ -44,7 +44,7 @@ void main() {
 
     vec3 radiance = vec3(0.0);
     if (HAS_DIFFUSE)
-        radiance += point_diffuse(point) * irradiance_over_pi(map.irradiance, environment_from_world(map, point.frame[2]));
+        radiance += point_diffuse(point) * diffuse_light(map, material.map, environment_from_world(map, point.frame[2]));
     [[unroll]] for (uint which = 0u; which < LOBE_COUNT; ++which)
         radiance += shade_lobe(point, map, material.lobe_begin + which, which);
     radiance *= map.radiance_scale;

@@ -40,6 +40,14 @@ SHARED_CONST float MATCHED_MOST_VIEW_ASPECT = 8.0f;
 // Of the linear map's variance, what a component of a mixture has.
 SHARED_CONST float MATCHED_VARIANCE_SHARE = 0.95f;
 
+// Texels along a face of an irradiance cube, the same with a border of one texel on each side, and all texels of the six faces.
+SHARED_CONST uint IRRADIANCE_FACE = 32u;
+SHARED_CONST uint IRRADIANCE_PITCH = 34u;
+SHARED_CONST uint IRRADIANCE_TEXELS = 6936u;
+
+// Points along a face at which a quadrature reference takes the lobe at least: texels of coarser maps are taken in parts.
+SHARED_CONST uint LEAST_QUADRATURE_FACE = 64u;
+
 // Suns that may be taken out of one map.
 SHARED_CONST uint MAX_SUNS = 4u;
 
@@ -66,6 +74,8 @@ SHARED_CONST uint BINDING_TILE_COUNTS = 18u; // xyz: indirect dispatch, w: tiles
 SHARED_CONST uint BINDING_MAP_PAIRS = 19u;
 SHARED_CONST uint BINDING_STORED_PAIRS = 20u;
 SHARED_CONST uint BINDING_STORED_SAMPLE_TABLE = 21u;
+SHARED_CONST uint BINDING_IRRADIANCE = 23u; // cubes, by map
+SHARED_CONST uint BINDING_STORED_IRRADIANCE = 24u;
 SHARED_CONST uint BINDING_DISPLAY = 22u; // 8 bits a channel in place of BINDING_RADIANCE
 
 SHARED_CONST uint BINDING_ACCUMULATE_SAMPLE = 0u;
@@ -102,6 +112,8 @@ SHARED_CONST uint SPEC_IS_DISPLAY = 25u; // of the accumulation too
 SHARED_CONST uint SPEC_COUNTS_NON_FINITE = 26u; // what is not finite is counted, too
 SHARED_CONST uint SPEC_PHASE = 27u; // lookups at a turn, of tables in a buffer
 SHARED_CONST uint SPEC_HAS_COAT_NORMAL = 28u; // the clear coat's normal is not the base's
+SHARED_CONST uint SPEC_HAS_HARMONICS = 29u; // diffuse light by nine harmonics, not by an irradiance cube
+SHARED_CONST uint SPEC_IRRADIANCE_IS_STORED = 30u; // in a storage buffer: a texel buffer holds fewer
 SHARED_CONST uint SPEC_SAMPLES = 100u; // four floats a sample follow
 
 SHARED_CONST uint LOOKUP_SAMPLER = 0u; // the device's

@@ -1,7 +1,7 @@
 """What the command line takes, and its help."""
 
 import argparse
-from typing import TYPE_CHECKING, NoReturn
+from typing import TYPE_CHECKING, NoReturn, cast
 
 from burnish import __version__
 from burnish._cli_advise import ADVISE_EXAMPLES, ADVISE_HELP, TARGET_HELP, add_advise_arguments, parse_target
@@ -32,7 +32,7 @@ examples:
 DEFAULT_SAMPLER = "matched:14"
 SAMPLER_HELP = (
     "matched[:COUNT], regular[:COUNT[:published]], importance[:COUNT[:hammersley|fibonacci]], prefiltered "
-    "or reference[:STANDARD_ERROR] "
+    "or reference[:STANDARD_ERROR], and KEY=VALUE for its other parameters, as matched:14:diffuse=harmonics "
     f"(default: {DEFAULT_SAMPLER})"
 )
 SCENE_HELP = "a .gltf or .glb file, or a built-in scene: sphere, spheres, plane, shaderball"
@@ -58,6 +58,13 @@ def parse_sampler(text: str) -> "Sampler":
     """Read a sampler such as ``matched:14``, ``importance:30:fibonacci`` or ``reference:0.002``."""
     from burnish import Importance, Matched, Prefiltered, Reference, Regular
 
+    if "=" in text:
+        from burnish.study.sampler_text import sampler_from_text
+
+        try:
+            return cast("Sampler", sampler_from_text(text))
+        except ValueError as error:
+            raise ValueError(f"--sampler: {str(error).removeprefix('--sampler: ')}") from error
     name, *options = text.split(":")
     try:
         if name == "regular" and len(options) <= 2:

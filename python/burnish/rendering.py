@@ -258,10 +258,18 @@ def render(
         return Frame(None, None, *surface, display=data.display, camera=camera)
     frame = Frame(data.color, data.alpha, *surface, camera=camera)
     if error_estimate:
-        from burnish.advice.error_estimate import estimate_errors
+        from burnish.advice import error_estimate as estimates
 
-        fewer = _core.render(device, scene, camera, height, width, other, int(spp), filter, None, strict)
-        frame.error_estimate = estimate_errors(sampler, frame.color, fewer.color, frame.alpha)
+        def draw(by: Sampler) -> Any:
+            return _core.render(device, scene, camera, height, width, by, int(spp), filter, None, strict)
+
+        errors = estimates.estimate_errors(sampler, frame.color, draw(other).color, frame.alpha)
+        diffuse_error = frame.report.diffuse_error
+        if diffuse_error > 0.0:
+            better = estimates.with_exact_diffuse(sampler)
+            exact = None if better is None else draw(better).color
+            errors = estimates.add_diffuse_errors(errors, frame.color, frame.alpha, diffuse_error, exact)
+        frame.error_estimate = errors
     return frame
 
 

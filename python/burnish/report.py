@@ -30,8 +30,8 @@ class Report:
     ----------
     data : mapping
         As the renderer fills it: version, device, size, spp, filter, sampler, passes, compile_ms, wall_ms,
-        effects, classes, stopped, standard_error, warnings, ignored_extensions; prediction where an error
-        was asked for.
+        effects, classes, stopped, diffuse_error, standard_error, warnings, ignored_extensions; prediction
+        where an error was asked for.
     """
 
     def __init__(self, data: Mapping[str, Any]) -> None:
@@ -92,6 +92,15 @@ class Report:
     def non_finite(self) -> int:
         """Values that all passes stopped."""
         return sum(int(entry["count"]) for entry in self.stopped)
+
+    @property
+    def diffuse_error(self) -> float:
+        """Relative RMSE of the light on diffuse surfaces, the worst map's; 0 where it is exact or not there.
+
+        Measured when the light was made: of the cube's lookups where they err most, in the middle of four
+        texels, or of the harmonics over all normals.
+        """
+        return float(self._data.get("diffuse_error", 0.0))
 
     @property
     def standard_error(self) -> float:

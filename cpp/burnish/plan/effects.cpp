@@ -123,6 +123,12 @@ std::string describe(const ShadeClass& one, const Scene& scene, const Plan& plan
     return text;
 }
 
+const char* describe_diffuse(const Sampler& sampler) {
+    const std::optional<DiffuseForm> form = diffuse_form(sampler);
+    if (!form) return "the sum over every texel, or sampled";
+    return *form == DiffuseForm::cube ? "one lookup in a cube of exact sums" : "nine spherical harmonics";
+}
+
 void add_effect_lines(const Scene& scene, Plan& plan) {
     const bool has_lobes = plan.settings.has_lobes;
     const auto add = [&](const char* name, const char* off,
@@ -153,6 +159,8 @@ void add_effect_lines(const Scene& scene, Plan& plan) {
     add_lobe_effect("anisotropy", "every lobe is round", is_brushed);
     add_lobe_effect("clear coat normal", "no clear coat lies over a normal map or has one", has_coat_normal);
     add("diffuse", "every diffuse reflectance is 0", has_diffuse);
+    if (plan.effects.back().is_on)
+        plan.effects.back().reason += message("; ", describe_diffuse(plan.settings.sampler));
     add("emissive", "no material emits", has_emissive);
     for (const TextureKind& kind : TEXTURE_KINDS)
         add(kind.name, "no material has one",
@@ -231,6 +239,10 @@ void add_pass_lines(Plan& plan) {
     if (has_lookups && std::holds_alternative<Matched>(plan.settings.sampler))
         add("prefilter",
             "levels that are round on the sphere, so that a lookup has one width everywhere, once per map");
+    if (!plan.diffuse_environments.empty() && !is_reference)
+        add("irradiance", message("cosine sums over every texel of ", plan.diffuse_environments.size(),
+                                  plan.diffuse_environments.size() == 1 ? " map" : " maps",
+                                  ", which something diffuse sees; on the host, once per map"));
     if (set_count(plan, MapLookup::sampler) < plan.map_sets.size())
         add("pack", "pairs of texels for the software lookup, once per map");
     add("surface", plan.has_varying

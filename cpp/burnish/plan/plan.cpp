@@ -211,6 +211,11 @@ void add_classes(const Scene& scene, Plan& plan) {
         throw std::invalid_argument(message("scene: expected at most ", shared::MAX_SHADE_CLASSES - 1,
                                             " combinations of lobe count, face size and texturing, got ",
                                             plan.classes.size()));
+    for (const MaterialInstance& instance : plan.instances)
+        if (has_diffuse(scene.materials[instance.material]) &&
+            std::ranges::find(plan.diffuse_environments, instance.environment) ==
+                plan.diffuse_environments.end())
+            plan.diffuse_environments.push_back(instance.environment);
     for (ShadeClass& one : plan.classes) {
         one.reason = describe(one, scene, plan, size_t(constant_count));
         plan.has_varying |= one.traits.has_varying;

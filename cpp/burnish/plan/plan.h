@@ -124,6 +124,8 @@ struct Plan {
     std::vector<std::vector<Sun>> suns;                           ///< taken out of each, by environment
     /// What lights diffuse surfaces, by environment: the maps with their suns.
     std::vector<std::shared_ptr<const Environment>> whole_environments;
+    /// Of those, which light something diffuse: into environments, each once.
+    std::vector<uint32_t> diffuse_environments;
     std::vector<MapSet> map_sets;
     std::vector<MaterialInstance> instances;
     std::vector<uint32_t> object_instance; ///< for each object of the scene

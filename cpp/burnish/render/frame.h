@@ -41,6 +41,7 @@ struct Report {
     std::vector<ClassReport> classes;
     uint64_t triangles = 0;
     std::vector<StoppedValues> stopped; ///< by pass; empty when all was finite
+    double diffuse_error = 0.0;         ///< relative RMSE of the light on diffuse surfaces, the worst map's
     double standard_error = 0.0;        ///< relative, reached by a progressive reference; else 0
     uint32_t reference_samples = 0;     ///< per pixel, of a progressive reference
     std::vector<std::string> warnings;  ///< of the scene and its maps, known before anything ran

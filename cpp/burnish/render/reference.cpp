@@ -7,6 +7,7 @@
 #include "burnish/sampling/texel_alias.h"
 #include "burnish/vulkan/device.h"
 #include "burnish/vulkan/transfer.h"
+#include "shared/constants.h"
 
 namespace burnish::render {
 namespace {
@@ -17,8 +18,8 @@ constexpr uint32_t MIN_BATCH_SIZE = 64, MAX_BATCH_SIZE = 1024;
 constexpr double BATCH_SAMPLES = 1.6e7; // in all points together
 constexpr uint32_t LEAST_BATCHES = 8;   // below, their spread says too little
 constexpr double MAX_QUADRATURE = 1e9;  // points times texels: some seconds on two cores
-// llvmpipe ends any loop after 65535 rounds, without a word.
-constexpr uint32_t MAX_LOOP = 1u << 15;
+// llvmpipe ends the loops of an invocation after 65535 rounds of all of them together, without a word.
+constexpr uint32_t MAX_ROUNDS = 60'000;
 constexpr double DISPATCH_TEXELS = 1e8; // points times texels in one dispatch: a GPU may not be held for long
 constexpr float LEAST_TEXELS_ACROSS = 8; // roughness in texels below which a sum over texels misses the lobe
 
@@ -26,10 +27,19 @@ const Reference& reference_of(const Plan& plan) {
     return std::get<Reference>(plan.settings.sampler);
 }
 
+/// Points of a quadrature: the texels of the largest map, or parts of them.
 uint64_t texels_of(const Plan& plan) {
     uint64_t most = 0;
     for (const MapSet& set : plan.map_sets)
-        most = std::max<uint64_t>(most, 6ull * set.face_size * set.face_size);
+        most = std::max<uint64_t>(most, std::max(set.face_size, shared::LEAST_QUADRATURE_FACE));
+    return 6 * most * most;
+}
+
+/// Most sums that one point takes: of its lobes and of the diffuse part.
+uint32_t sums_of(const Plan& plan) {
+    uint32_t most = 1;
+    for (const ShadeClass& one : plan.classes)
+        most = std::max(most, one.traits.lobe_count + (one.traits.has_diffuse ? 1 : 0));
     return most;
 }
 
@@ -112,7 +122,8 @@ void Renderer::run_reference(const Plan& plan, const ShadePass& pass, const Refe
     };
     if (buffers.is_quadrature) {
         const uint32_t texels = uint32_t(texels_of(plan));
-        const uint32_t step = std::clamp(uint32_t(DISPATCH_TEXELS / double(points)), 64u, MAX_LOOP);
+        const uint32_t step =
+            std::clamp(uint32_t(DISPATCH_TEXELS / double(points)), 64u, MAX_ROUNDS / sums_of(plan));
         uint32_t batch = 0;
         for (uint32_t begin = 0; begin < texels; begin += step, ++batch) {
             run({0, 0, batch, 0, begin, std::min(begin + step, texels), 0, 0});

@@ -50,6 +50,7 @@ void Renderer::forget() {
     map_tools_.free();
     targets_->clear();
     tables_.forget_buffers();
+    diffuse_.forget_buffer();
 }
 
 void Renderer::forget_old_scenes() {
@@ -121,7 +122,7 @@ std::optional<Frame> Renderer::draw_once(const Scene& scene, const Camera& camer
     frame.width = settings.width;
     frame.height = settings.height;
     frame.camera = camera;
-    std::vector<vulkan::PassTime> times;
+    std::vector<vulkan::PassTime> times = tables.pass_times;
     const std::vector<std::shared_ptr<EnvironmentMaps>> maps = prepare_maps(plan, times);
     frame.has_display = plan.settings.display_exposure.has_value();
     frame.targets = targets_->take(settings.width, settings.height, plan.has_varying, plan.settings.spp > 1,

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "burnish/error.h"
+#include "burnish/render/diffuse_light.h"
 #include "burnish/render/environment_maps.h"
 #include "burnish/render/frame.h"
 #include "burnish/render/gpu_scene.h"
@@ -166,6 +167,7 @@ private:
     MapTools map_tools_;
     Placeholders placeholders_;
     TableCache tables_;
+    DiffuseLights diffuse_;
     SunCache suns_;
     std::vector<CachedScene> scenes_; // the last used last
     std::vector<CachedMaps> maps_;

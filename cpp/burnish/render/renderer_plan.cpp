@@ -17,7 +17,7 @@ Plan Renderer::make_plan(const Scene& scene, const PlanSettings& settings) {
 Renderer::ShadePlan Renderer::plan_shading(const Scene& scene, const PlanSettings& settings,
                                            ShadeTarget target) {
     Plan plan = make_plan(scene, settings);
-    ShadeTables tables = make_shade_tables(device_, scene, plan, tables_);
+    ShadeTables tables = make_shade_tables(device_, scene, plan, tables_, diffuse_);
     if (compilation_ != Compilation::background) return {std::move(plan), std::move(tables)};
 
     std::vector<ComputeKey> keys;
@@ -29,7 +29,9 @@ Renderer::ShadePlan Renderer::plan_shading(const Scene& scene, const PlanSetting
     PlanSettings meanwhile = settings;
     meanwhile.sample_source = SampleSource::meanwhile;
     plan = make_plan(scene, meanwhile);
-    tables = make_shade_tables(device_, scene, plan, tables_);
+    std::vector<vulkan::PassTime> made = std::move(tables.pass_times);
+    tables = make_shade_tables(device_, scene, plan, tables_, diffuse_);
+    tables.pass_times.insert(tables.pass_times.end(), made.begin(), made.end());
     return {std::move(plan), std::move(tables)};
 }
 

@@ -48,7 +48,7 @@ std::vector<glm::vec3> Renderer::shade_points(const std::shared_ptr<const Enviro
     scene.materials[0].source.reset(); // points carry no texture coordinates: its factors hold everywhere
     scene.objects.emplace_back();
     const auto [plan, tables] = plan_shading(scene, settings, {.is_points = true});
-    std::vector<vulkan::PassTime> times;
+    std::vector<vulkan::PassTime> times = tables.pass_times;
     const std::vector<std::shared_ptr<EnvironmentMaps>> maps = prepare_maps(plan, times);
 
     std::vector<shared::SurfacePoint> records(count);

@@ -1,6 +1,7 @@
 // The part of Renderer that writes the report.
 #include <algorithm>
 #include <array>
+#include <cstdio>
 
 #include "burnish/render/renderer.h"
 #include "burnish/vulkan/device.h"
@@ -8,6 +9,17 @@
 #include "shared/constants.h"
 
 namespace burnish::render {
+
+namespace {
+
+/// With two digits: errors are estimates.
+std::string percent(double share) {
+    std::array<char, 32> text{};
+    std::snprintf(text.data(), text.size(), "%.2g %%", 100.0 * share);
+    return text.data();
+}
+
+} // namespace
 
 Report Renderer::start_report(const Scene& scene, const Plan& plan, const ShadeTables& tables) const {
     Report report;
@@ -18,6 +30,10 @@ Report Renderer::start_report(const Scene& scene, const Plan& plan, const ShadeT
     report.filter = pyramid_filter_name(plan.settings.filter);
     report.sampler = describe(plan.settings.sampler);
     report.effects = plan.effects;
+    report.diffuse_error = tables.diffuse_error;
+    for (EffectLine& line : report.effects)
+        if (line.name == "diffuse" && line.is_on && diffuse_form(plan.settings.sampler))
+            line.reason += ", " + percent(tables.diffuse_error) + " off";
     report.warnings = plan.warnings;
     for (size_t k = 0; k < plan.classes.size(); ++k) {
         const ShadeClass& one = plan.classes[k];

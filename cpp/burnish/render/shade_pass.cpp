@@ -86,6 +86,9 @@ ShadePass::Stage ShadePass::make_stage(Pipelines& pipelines, const std::string& 
     if (stage.set.has_binding(shared::BINDING_SAMPLE_TABLE))
         tables_.samples->elements.bind(stage.set, shared::BINDING_SAMPLE_TABLE,
                                        shared::BINDING_STORED_SAMPLE_TABLE);
+    if (stage.set.has_binding(shared::BINDING_IRRADIANCE))
+        tables_.irradiance->elements.bind(stage.set, shared::BINDING_IRRADIANCE,
+                                          shared::BINDING_STORED_IRRADIANCE);
     bind_texels(shared::BINDING_ALBEDO_TABLE, tables_.albedo_texels);
     if (stage.set.has_binding(shared::BINDING_MAP_PAIRS))
         maps->pairs().bind(stage.set, shared::BINDING_MAP_PAIRS, shared::BINDING_STORED_PAIRS);

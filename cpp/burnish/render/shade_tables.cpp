@@ -69,13 +69,14 @@ std::vector<uint32_t> unrolled_counts(const Scene& scene, const Plan& plan, Tabl
 }
 
 shared::MapRecord map_record(const Environment& environment, uint32_t layer,
-                             const IrradianceCoefficients& irradiance, const std::vector<Sun>& suns) {
+                             const std::optional<IrradianceCoefficients>& irradiance,
+                             const std::vector<Sun>& suns) {
     shared::MapRecord record{};
     record.env_from_world_x = glm::vec4(environment.rotation[0], 0.0f);
     record.env_from_world_y = glm::vec4(environment.rotation[1], 0.0f);
     record.env_from_world_z = glm::vec4(environment.rotation[2], 0.0f);
-    for (size_t k = 0; k < irradiance.size(); ++k)
-        record.irradiance[k] = glm::vec4(irradiance[k], 0.0);
+    for (size_t k = 0; irradiance && k < irradiance->size(); ++k)
+        record.irradiance[k] = glm::vec4((*irradiance)[k], 0.0);
     record.radiance_scale = std::exp2(environment.exposure);
     record.layer = layer;
     record.face_size = environment.face_size();
@@ -96,7 +97,7 @@ vulkan::Buffer storage(const vulkan::DevicePointer& device, std::vector<T>& entr
 } // namespace
 
 ShadeTables make_shade_tables(const vulkan::DevicePointer& device, const Scene& scene, const Plan& plan,
-                              TableCache& cache) {
+                              TableCache& cache, DiffuseLights& diffuse) {
     TableWriter writer(plan, cache);
     std::vector<shared::MaterialRecord> materials;
     std::vector<shared::LobeRecord> lobes;
@@ -146,17 +147,15 @@ ShadeTables make_shade_tables(const vulkan::DevicePointer& device, const Scene& 
         }
     }
 
-    // A map's integrals take longer than to upload it.
-    const bool has_diffuse = std::any_of(plan.classes.begin(), plan.classes.end(),
-                                         [](const ShadeClass& one) { return one.traits.has_diffuse; });
+    ShadeTables tables;
+    const std::vector<DiffuseLight> lights = diffuse.of_plan(plan, tables.pass_times);
+    for (const DiffuseLight& light : lights)
+        tables.diffuse_error = std::max(tables.diffuse_error, light.error);
     std::vector<shared::MapRecord> maps(plan.environments.size());
     for (const MapSet& set : plan.map_sets)
         for (uint32_t layer = 0; layer < set.environments.size(); ++layer) {
             const uint32_t k = set.environments[layer];
-            maps[k] = map_record(*plan.environments[k], layer,
-                                 has_diffuse ? cache.irradiance(plan.whole_environments[k])
-                                             : IrradianceCoefficients{},
-                                 plan.suns[k]);
+            maps[k] = map_record(*plan.environments[k], layer, lights[k].harmonics, plan.suns[k]);
         }
 
     uint32_t alias_begin = 0;
@@ -165,7 +164,6 @@ ShadeTables make_shade_tables(const vulkan::DevicePointer& device, const Scene& 
         alias_begin += 6 * map.face_size * map.face_size;
     }
 
-    ShadeTables tables;
     tables.class_counts = class_counts;
     for (size_t k = 0; k < plan.classes.size(); ++k) {
         const ShadeTraits& traits = plan.classes[k].traits;
@@ -186,6 +184,13 @@ ShadeTables make_shade_tables(const vulkan::DevicePointer& device, const Scene& 
     tables.map_records = storage(device, maps);
     tables.map_rows = vulkan::texel_view(tables.map_records, VK_FORMAT_R32G32B32A32_UINT);
     tables.samples = cache.sample_buffer(device, std::move(writer.sample_tables));
+    std::vector<std::shared_ptr<const IrradianceCube>> cubes;
+    // Pipelines that many kinds of material share look it up where nothing is diffuse, too.
+    if (diffuse_form(plan.settings.sampler) == DiffuseForm::cube &&
+        std::ranges::any_of(plan.classes, [](const ShadeClass& one) { return one.traits.has_diffuse; }))
+        for (const DiffuseLight& light : lights)
+            cubes.push_back(light.cube);
+    tables.irradiance = diffuse.buffer(device, std::move(cubes));
     tables.albedo = storage(device, writer.albedo_entries);
     tables.albedo_texels = vulkan::texel_view(tables.albedo, VK_FORMAT_R32G32B32A32_SFLOAT);
     return tables;

@@ -6,9 +6,11 @@
 #include <vector>
 
 #include "burnish/plan/plan.h"
+#include "burnish/render/diffuse_light.h"
 #include "burnish/render/table_cache.h"
 #include "burnish/sampling/sample_table.h"
 #include "burnish/vulkan/buffer.h"
+#include "burnish/vulkan/commands.h"
 #include "shared/records.h"
 
 namespace burnish::render {
@@ -22,9 +24,12 @@ struct ShadeTables {
     /// By class: entries of every table that it reads from the buffer; 0 where each has its own count.
     std::vector<uint32_t> class_counts;
     std::vector<std::string> samples_used; ///< by class: "19 (budget 20)", one text for each lobe, joined
+    std::shared_ptr<const IrradianceBuffer> irradiance; ///< by environment
+    double diffuse_error = 0.0;               ///< relative, of the light on diffuse surfaces: the worst map's
+    std::vector<vulkan::PassTime> pass_times; ///< "irradiance", as the host sees it, where it was made
 };
 
 ShadeTables make_shade_tables(const vulkan::DevicePointer& device, const Scene& scene, const Plan& plan,
-                              TableCache& cache);
+                              TableCache& cache, DiffuseLights& diffuse);
 
 } // namespace burnish::render

@@ -134,8 +134,12 @@ ComputeKey shade_key(const Plan& plan, const ShadeTables& tables, uint32_t shade
     vulkan::SpecializationConstants constants = common_constants(plan, shade_class, target);
     add_pattern_constants(constants, traits, plan.settings, tables.class_tables[shade_class],
                           tables.class_counts[shade_class]);
-    constants.set(shared::SPEC_SAMPLE_TABLE_IS_STORED,
-                  tables.samples->elements.access() == vulkan::ElementAccess::storage);
+    constants
+        .set(shared::SPEC_SAMPLE_TABLE_IS_STORED,
+             tables.samples->elements.access() == vulkan::ElementAccess::storage)
+        .set(shared::SPEC_HAS_HARMONICS, diffuse_form(plan.settings.sampler) == DiffuseForm::harmonics)
+        .set(shared::SPEC_IRRADIANCE_IS_STORED,
+             tables.irradiance->elements.access() == vulkan::ElementAccess::storage);
     return {shader_of(traits.table), constants};
 }
 

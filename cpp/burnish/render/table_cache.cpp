@@ -3,7 +3,6 @@
 #include <span>
 
 #include "burnish/sampling/matched_table.h"
-#include "burnish/sampling/spherical_harmonics.h"
 #include "burnish/vulkan/transfer.h"
 #include "shared/constants.h"
 
@@ -68,19 +67,6 @@ const std::vector<glm::vec2>& TableCache::varying_albedo(float alpha, bool is_br
                                              : build_varying_albedo_table(alpha))
                     .first;
     return found->second;
-}
-
-const IrradianceCoefficients& TableCache::irradiance(const std::shared_ptr<const Environment>& environment) {
-    std::erase_if(irradiance_, [](const auto& entry) { return entry.second.environment.expired(); });
-    auto found = irradiance_.find(environment.get());
-    if (found == irradiance_.end())
-        found =
-            irradiance_
-                .emplace(environment.get(),
-                         Irradiance{environment, irradiance_over_pi_coefficients(
-                                                     {environment->face_size(), environment->radiance()})})
-                .first;
-    return found->second.coefficients;
 }
 
 } // namespace burnish::render

@@ -8,12 +8,9 @@
 
 #include "burnish/sampling/albedo_table.h"
 #include "burnish/sampling/matched_view_table.h"
-#include "burnish/scene/environment.h"
 #include "burnish/vulkan/element_buffer.h"
 
 namespace burnish::render {
-
-using IrradianceCoefficients = std::array<glm::dvec3, 9>;
 
 using SampleEntries = std::shared_ptr<const std::vector<glm::vec4>>;
 
@@ -35,7 +32,6 @@ public:
                                                       std::vector<SampleEntries> tables);
     /// Gives back what lies on the device.
     void forget_buffers() { samples_.reset(); }
-    const IrradianceCoefficients& irradiance(const std::shared_ptr<const Environment>& environment);
 
 private:
     std::map<std::array<float, 3>, AlbedoTable> albedo_;
@@ -44,11 +40,6 @@ private:
     std::map<MatchedLobe, SampleEntries> view_tables_;
     uint64_t view_entries_ = 0; ///< of all view_tables_
     std::shared_ptr<const SampleBuffer> samples_;
-    struct Irradiance {
-        std::weak_ptr<const Environment> environment; // a new one may take an old one's address
-        IrradianceCoefficients coefficients;
-    };
-    std::map<const Environment*, Irradiance> irradiance_;
 };
 
 } // namespace burnish::render

@@ -49,14 +49,32 @@ struct Check {
     }
 };
 
+const char* form_text(DiffuseForm form) {
+    return form == DiffuseForm::harmonics ? ":diffuse=harmonics" : "";
+}
+
 struct Describe {
-    std::string operator()(const Regular& sampler) const { return message("regular:", sampler.samples); }
-    std::string operator()(const Importance& sampler) const {
-        return message("importance:", sampler.samples);
+    std::string operator()(const Regular& sampler) const {
+        return message("regular:", sampler.samples, form_text(sampler.diffuse));
     }
-    std::string operator()(const Matched& sampler) const { return message("matched:", sampler.samples); }
-    std::string operator()(const Prefiltered&) const { return "prefiltered"; }
+    std::string operator()(const Importance& sampler) const {
+        return message("importance:", sampler.samples, form_text(sampler.diffuse));
+    }
+    std::string operator()(const Matched& sampler) const {
+        return message("matched:", sampler.samples, form_text(sampler.diffuse));
+    }
+    std::string operator()(const Prefiltered& sampler) const {
+        return message("prefiltered", form_text(sampler.diffuse));
+    }
     std::string operator()(const Reference&) const { return "reference"; }
+};
+
+struct FindDiffuseForm {
+    std::optional<DiffuseForm> operator()(const Reference&) const { return std::nullopt; }
+    template <typename Kind>
+    std::optional<DiffuseForm> operator()(const Kind& sampler) const {
+        return sampler.diffuse;
+    }
 };
 
 } // namespace
@@ -67,6 +85,10 @@ void validate(const Sampler& sampler) {
 
 std::string describe(const Sampler& sampler) {
     return std::visit(Describe{}, sampler);
+}
+
+std::optional<DiffuseForm> diffuse_form(const Sampler& sampler) {
+    return std::visit(FindDiffuseForm{}, sampler);
 }
 
 } // namespace burnish

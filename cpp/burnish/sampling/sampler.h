@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <variant>
 
@@ -13,6 +14,11 @@ constexpr uint32_t MAX_SAMPLES = 1024;
 enum class Footprint { published, exact };
 enum class Normalization { published, projected, furnace };
 enum class PointSet { hammersley, fibonacci };
+/// How samplers see the light on diffuse surfaces.
+enum class DiffuseForm {
+    cube,     ///< exact sums in a small cube map, read by one bilinear lookup (irradiance_cube.h)
+    harmonics ///< nine harmonics (spherical_harmonics.h), as published: several per cent off
+};
 enum class ReferenceMethod { automatic, quadrature, progressive };
 
 /// Half-vectors on equally spaced circles (RS section 5). A budget: the pattern whose count comes closest is
@@ -23,6 +29,7 @@ struct Regular {
     Footprint footprint = Footprint::exact;
     Normalization normalization = Normalization::furnace;
     float mip_bias = 0.0f; ///< added to the mip level
+    DiffuseForm diffuse = DiffuseForm::cube;
 };
 
 /// Filtered importance sampling (GPU Gems 3, ch. 20) of the lobe's half-vectors.
@@ -30,6 +37,7 @@ struct Importance {
     uint32_t samples = 14;
     PointSet points = PointSet::hammersley;
     float mip_bias = 0.0f;
+    DiffuseForm diffuse = DiffuseForm::cube;
 };
 
 /// Counts that mixtures were fitted for (see matched_table.h).
@@ -40,15 +48,18 @@ constexpr std::array<uint32_t, 19> MATCHED_COUNTS = {2,  3,  4,  5,  6,  7,  8, 
 /// lobe's (maths: section 6).
 struct Matched {
     uint32_t samples = 14; ///< one of MATCHED_COUNTS
+    DiffuseForm diffuse = DiffuseForm::cube;
 };
 
 /// One lookup a lobe in a map prefiltered for its roughness, times the exact albedo: what engines ship.
-struct Prefiltered {};
+struct Prefiltered {
+    DiffuseForm diffuse = DiffuseForm::cube;
+};
 
-/// The truth: every level-0 texel, or progressive multiple importance sampling until the standard error is
-/// reached.
+/// The truth, for the diffuse part and every lobe: every level-0 texel, or progressive multiple importance
+/// sampling until the standard error is reached.
 struct Reference {
-    float standard_error = 0.002f; ///< relative to the mean radiance of the glossy part, > 0
+    float standard_error = 0.002f; ///< relative to the mean radiance that is reflected, > 0
     ReferenceMethod method = ReferenceMethod::automatic;
     uint32_t max_samples = 1u << 16; ///< per pixel; a warning says so when it stops a progressive run
 };
@@ -57,7 +68,9 @@ using Sampler = std::variant<Regular, Importance, Matched, Prefiltered, Referenc
 
 /// Throws std::invalid_argument, naming field, range and value.
 void validate(const Sampler& sampler);
-/// "regular:14", "importance:14", "matched:14", "prefiltered", "reference": for reports.
+/// "regular:14", "importance:14", "matched:14:diffuse=harmonics", "prefiltered", "reference": for reports.
 std::string describe(const Sampler& sampler);
+/// None for a reference, which takes no such form: it is exact.
+std::optional<DiffuseForm> diffuse_form(const Sampler& sampler);
 
 } // namespace burnish

@@ -71,4 +71,23 @@ std::array<glm::dvec3, 9> irradiance_over_pi_coefficients(const CubeTexels& cube
             y2 / 2.0 * sum[8]};
 }
 
+glm::dvec3 irradiance_over_pi(const std::array<glm::dvec3, 9>& coefficients, glm::dvec3 n) {
+    constexpr double PI = std::numbers::pi;
+    const double y0 = std::sqrt(1.0 / (4.0 * PI)), y1 = std::sqrt(3.0 / (4.0 * PI));
+    const double y2 = std::sqrt(15.0 / (4.0 * PI)), y20 = std::sqrt(5.0 / (16.0 * PI));
+    const std::array<double, 9> harmonics{y0,
+                                          y1 * n.y,
+                                          y1 * n.z,
+                                          y1 * n.x,
+                                          y2 * n.x * n.y,
+                                          y2 * n.y * n.z,
+                                          y20 * (3.0 * n.z * n.z - 1.0),
+                                          y2 * n.x * n.z,
+                                          y2 / 2.0 * (n.x * n.x - n.y * n.y)};
+    glm::dvec3 sum(0.0);
+    for (size_t k = 0; k < 9; ++k)
+        sum += harmonics[k] * coefficients[k];
+    return glm::max(sum, glm::dvec3(0.0));
+}
+
 } // namespace burnish

@@ -14,4 +14,7 @@ namespace burnish {
 /// the environment. Radiance as given: neither rotation nor exposure is applied.
 std::array<glm::dvec3, 9> irradiance_over_pi_coefficients(const CubeTexels& cube);
 
+/// That sum at a unit normal; what rings below 0 becomes 0.
+glm::dvec3 irradiance_over_pi(const std::array<glm::dvec3, 9>& coefficients, glm::dvec3 normal);
+
 } // namespace burnish

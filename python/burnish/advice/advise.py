@@ -1,5 +1,6 @@
 """The inverse question: the cheapest sampler and count that meet an error, and how sure that is."""
 
+import math
 import time
 
 import numpy as np
@@ -9,7 +10,7 @@ from burnish._device import default_device
 from burnish.advice.advice import Advice
 from burnish.advice.contrast import measure_spectrum
 from burnish.advice.cost_model import CostModel, traits_of_class
-from burnish.advice.error_model import ErrorModel, lobes_of
+from burnish.advice.error_model import ErrorModel, diffuse_share_of, lobes_of
 from burnish.advice.families import FAMILIES, sampler_text
 from burnish.advice.frame_cost import FrameCost, equal_shares, learn_frame_cost
 from burnish.advice.last_resort import predict_reference, with_last_resort
@@ -55,19 +56,23 @@ def predict_errors(scene: _core.Scene, model: ErrorModel | None = None) -> dict[
             material = scene.materials[one.material]
             parts.setdefault(id(environment), (environment, []))[1].append(material)
     lit = [
-        (measure_spectrum(environment), [lobe for one in materials for lobe in lobes_of(one)], len(materials))
+        (
+            measure_spectrum(environment),
+            [lobe for one in materials for lobe in lobes_of(one)],
+            [diffuse_share_of(one) for one in materials],
+        )
         for environment, materials in parts.values()
     ]
-    count = sum(materials for *_, materials in lit)
-    return {
-        (family, n): float(
-            np.sqrt(
-                sum(w / count * model.predict(family, n, lobes, spectrum) ** 2 for spectrum, lobes, w in lit)
-            )
-        )
-        for family, settings in FAMILIES.items()
-        for n in settings.counts
-    }
+    count = sum(len(diffuse) for *_, diffuse in lit)
+
+    def predict(family: str, n: int) -> float:
+        squares = 0.0
+        for spectrum, lobes, diffuse in lit:
+            error = model.predict(family, n, lobes, spectrum, diffuse_shares=diffuse)
+            squares += len(diffuse) / count * error**2
+        return math.sqrt(squares)
+
+    return {(family, n): predict(family, n) for family, settings in FAMILIES.items() for n in settings.counts}
 
 
 def price_candidates(errors: dict[tuple[str, int], float], price: FrameCost) -> list[Candidate]:

@@ -3,9 +3,13 @@
 Both pictures err, and the one of fewer lookups errs more. How much of their difference is the picture's own
 error, studies have measured for each sampler and count (``python -m burnish.study.calibrate``). Of a single
 pixel the difference may vanish by chance; its mean square over the neighbourhood does not.
+
+Both see the same light on diffuse surfaces. The error of that is known from when the light was made
+(``Report.diffuse_error``), or is the difference from a picture of the better form.
 """
 
 import math
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,6 +17,7 @@ from numpy.typing import NDArray
 from burnish import _core
 from burnish.advice.error_model import committed_data
 from burnish.advice.families import MATCHED_COUNTS
+from burnish.study.sampler_text import sampler_parameters
 
 FloatArray = NDArray[np.float32]
 Float64 = NDArray[np.float64]
@@ -39,20 +44,66 @@ def companion(sampler: object) -> _core.Regular | _core.Importance | _core.Match
         If it is a reference: that knows its standard error.
     """
     if isinstance(sampler, _core.Prefiltered):
-        return _core.Matched()
+        return _core.Matched(diffuse=sampler.diffuse)
     if isinstance(sampler, _core.Matched):
         counts = [n for n in MATCHED_COUNTS if n <= COMPANION_SHARE * sampler.samples]
         above = [n for n in MATCHED_COUNTS if n > sampler.samples]
-        return _core.Matched(counts[-1] if counts else above[0])
+        return _core.Matched(counts[-1] if counts else above[0], sampler.diffuse)
     if isinstance(sampler, _core.Importance):
-        return _core.Importance(_fewer(sampler.samples), sampler.points, sampler.mip_bias)
+        return _core.Importance(_fewer(sampler.samples), sampler.points, sampler.mip_bias, sampler.diffuse)
     if isinstance(sampler, _core.Regular):
         rest = (sampler.threshold, sampler.footprint, sampler.normalization, sampler.mip_bias)
-        return _core.Regular(_fewer(sampler.samples), *rest)
+        return _core.Regular(_fewer(sampler.samples), *rest, sampler.diffuse)
     raise ValueError(
         "error_estimate: expected a sampler with a number of samples, or Prefiltered, got "
         f"{type(sampler).__name__}"
     )
+
+
+def with_exact_diffuse(sampler: Any) -> Any:
+    """Give the sampler with diffuse light by the cube, to see by what the harmonics are off.
+
+    Parameters
+    ----------
+    sampler : Regular, Importance, Matched or Prefiltered
+        Of the picture.
+
+    Returns
+    -------
+    sampler : of the same kind, or None
+        None where it has that form already.
+    """
+    if getattr(sampler, "diffuse", "cube") == "cube":
+        return None
+    return type(sampler)(**sampler_parameters(sampler) | {"diffuse": "cube"})
+
+
+def add_diffuse_errors(
+    errors: FloatArray, color: FloatArray, alpha: FloatArray, diffuse_error: float, exact: FloatArray | None
+) -> FloatArray:
+    """Add the error of the light on diffuse surfaces, which does not depend on the other: in squares.
+
+    Parameters
+    ----------
+    errors : (h, w) float32
+        As `estimate_errors` gives them.
+    color : (h, w, 3) float32
+        The picture; its diffuse part is at most all of it.
+    alpha : (h, w) float32
+        Coverage.
+    diffuse_error : float
+        Relative, of the diffuse light: ``Report.diffuse_error``.
+    exact : (h, w, 3) float32 or None
+        The picture by `with_exact_diffuse`: what it differs by is the error. None: `diffuse_error` of the
+        picture is.
+
+    Returns
+    -------
+    errors : (h, w) float32
+    """
+    off = diffuse_error * color.astype(np.float64) if exact is None else color.astype(np.float64) - exact
+    squares = np.mean(off**2, axis=-1) * (alpha > 0)
+    return np.asarray(np.sqrt(errors.astype(np.float64) ** 2 + squares), np.float32)
 
 
 def _fewer(count: int) -> int:

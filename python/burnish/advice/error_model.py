@@ -44,6 +44,12 @@ TEXTURED_SLOPES = (0.1, 0.3)
 
 LEAST_ERROR = 1e-5
 
+CUBE_ERROR = 1e-3
+"""Relative RMSE of diffuse light by the irradiance cube, of most maps; the report gives each map's."""
+
+COSINE_WIDTH = 1.7
+"""Radians: what is narrower is not left in diffuse light."""
+
 
 @dataclass(frozen=True)
 class LobeTraits:
@@ -180,14 +186,25 @@ def committed_data() -> dict[str, Any]:
     return data
 
 
+def diffuse_share_of(material: _core.Material) -> float:
+    """Share of a material's light that its diffuse part reflects, beside those of `lobes_of`.
+
+    Parameters
+    ----------
+    material : Material
+        Any.
+    """
+    return 1.0 - sum(share for _, share in lobes_of(material)) if any(material.diffuse) else 0.0
+
+
 def lobes_of(material: _core.Material) -> list[tuple[LobeTraits, float]]:
     """Lobes of a material with the share of its light that each reflects, roughly.
 
     Parameters
     ----------
     material : Material
-        Its diffuse part has no error of its own and takes its share. A textured roughness is unknown: two
-        slopes stand for it.
+        Its diffuse part takes the rest (`diffuse_share_of`). A textured roughness is unknown: two slopes
+        stand for it.
     """
     parts: list[tuple[LobeTraits, float]] = []
     for lobe in material.lobes:
@@ -220,6 +237,8 @@ class ErrorModel:
         parts: Iterable[tuple[LobeTraits, float]],
         spectrum: Spectrum,
         cosines: Sequence[float] = SPHERE_COSINES,
+        diffuse_shares: Iterable[float] = (),
+        diffuse_error: float = CUBE_ERROR,
     ) -> float:
         """Predict the relative RMSE over a picture.
 
@@ -235,6 +254,10 @@ class ErrorModel:
             Of the environment.
         cosines : sequence of float
             View angles, all alike in weight.
+        diffuse_shares : iterable of float
+            Of the light, that diffuse parts reflect.
+        diffuse_error : float
+            Relative RMSE of the light on them, as reports give it.
         """
         coefficients, splits_suns = self._families[family], FAMILIES[family].splits_suns
         error = energy = 0.0
@@ -244,4 +267,8 @@ class ErrorModel:
                     coefficients, lobe_features(traits, cosine, spectrum, splits_suns), count
                 )
                 error, energy = error + share**2 * float(square), energy + share * float(left)
+        left_of_diffuse = float(spectrum.total - spectrum.lost_below(np.array(COSINE_WIDTH)))
+        for diffuse_share in diffuse_shares:
+            diffuse = len(cosines) * diffuse_share**2 * left_of_diffuse
+            error, energy = error + diffuse_error**2 * diffuse, energy + diffuse
         return max(math.sqrt(error / energy), LEAST_ERROR) if energy > 0 else LEAST_ERROR

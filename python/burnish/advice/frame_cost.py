@@ -7,7 +7,7 @@ import numpy as np
 from burnish.advice.cost_model import SHADE_PREFIX, CostModel, Traits, traits_of_class
 from burnish.frame import Frame
 
-ONCE = ("pyramid", "prefilter", "capture")
+ONCE = ("pyramid", "prefilter", "irradiance", "capture")
 """First words of passes that run when something has changed, not in every frame."""
 
 

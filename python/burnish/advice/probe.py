@@ -190,7 +190,8 @@ class Probe:
             energy_of(dense_large), 1e-30
         )
         if not self._can_sum:
-            return math.sqrt(proxy + self._dense_error() ** 2)
+            # The dense sampler sees the same diffuse light, whose error is known.
+            return math.sqrt(proxy + self._dense_error() ** 2 + dense_large.report.diffuse_error**2)
         ratio = exact / max(squared_distance(small, dense_small), 1e-30)
         return math.sqrt(proxy * min(ratio, LARGEST_RATIO))
 

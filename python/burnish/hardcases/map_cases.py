@@ -55,12 +55,13 @@ def into_the_texel() -> Points:
 
 
 def diffuse_error(bench: Bench, sampler: str) -> float:
-    """Values of a diffuse surface that are not finite or negative, all around a sun."""
+    """Values of a diffuse surface, in both forms, that are not finite or negative, all around a sun."""
     environment = _core.Environment.from_faces(one_texel(HALF_MAX))
     normals = float32(cube_directions(8).reshape(-1, 3))
     material = _core.Material(diffuse=(1.0, 0.5, 0.1))
-    return wild_count(
-        shade(environment, material, _core.Regular(), normals, normals, normals, device=bench.device)
+    return sum(
+        wild_count(shade(environment, material, one, normals, normals, normals, device=bench.device))
+        for one in (_core.Regular(), _core.Regular(diffuse="harmonics"))
     )
 
 

@@ -37,6 +37,7 @@ class Regular:
     footprint: Footprint = "exact"
     normalization: Normalization = "furnace"
     mip_bias: float = 0.0
+    diffuse: str = "cube"
 
 
 @dataclass(frozen=True)
@@ -46,6 +47,7 @@ class Importance:
     samples: int = 14
     points: Points = "hammersley"
     mip_bias: float = 0.0
+    diffuse: str = "cube"
 
 
 @dataclass(frozen=True)
@@ -181,5 +183,5 @@ def shade_importance(
 
 
 def shade_diffuse(coefficients: npt.ArrayLike, n: npt.ArrayLike, diffuse: npt.ArrayLike) -> Array:
-    """Radiance kd/pi E(n) of the diffuse part, E from nine coefficients and never below 0."""
+    """Radiance kd/pi E(n) of the diffuse part by harmonics: E from nine coefficients, never below 0."""
     return as_array(diffuse) / np.pi * np.maximum(irradiance(coefficients, normalize(n)), 0)

@@ -40,6 +40,7 @@ class Matched:
 
     samples: int = 14
     split_suns: bool = True
+    diffuse: str = "cube"
 
 
 @dataclass(frozen=True)

@@ -9,12 +9,11 @@ import numpy.typing as npt
 
 from .arrays import Array, as_array, dot, normalize
 from .cube_map import pad_cube, sample_cube, texel_directions
-from .estimator import shade_diffuse
 from .filter_offsets import filter_offsets
 from .frame import facing_normal
+from .irradiance import diffuse_light
 from .raster import Camera, Hits, Object, Triangles, camera_rays, cast_rays, gather_triangles, interpolate
 from .shading import shade
-from .spherical_harmonics import project_cube
 
 
 @dataclass(frozen=True)
@@ -157,10 +156,10 @@ def capture(
     if len(seen) > 0:
         part = Hits(hits.triangle[seen], hits.depth[seen], hits.weights[seen])
         normals, _ = _surface(triangles, part, -directions[seen])
-        coefficients = project_cube(env_levels[0])
         owner = triangles.owner[part.triangle]
         for index in np.unique(owner):
             own, material = owner == index, objects[index].material
-            diffuse = shade_diffuse(coefficients, normals[own], material.diffuse)
+            light = diffuse_light(env_levels[0], normals[own], "cube")
+            diffuse = as_array(material.diffuse) * light
             radiance[seen[own]] = diffuse + as_array(getattr(material, "emissive", 0.0))
     return radiance.reshape(6, face_size, face_size, 3)

@@ -9,14 +9,14 @@ import numpy.typing as npt
 from .albedo import directional_albedo
 from .arrays import Array, as_array, dot
 from .cube_map import PaddedCube, pad_cube
-from .estimator import local_frame, shade_diffuse, shade_importance, shade_regular
+from .estimator import local_frame, shade_importance, shade_regular
 from .importance import importance_half_vectors
+from .irradiance import DiffuseForm, diffuse_light
 from .kurt_lobe import LobeLike
 from .matched import MatchedMap, read_matched, shade_matched
 from .prefiltered import shade_prefiltered
 from .reference import shade_reference
 from .regular_pattern import choose_pattern
-from .spherical_harmonics import project_cube
 
 
 def conserving_scale(normals: Array, tangents: Array, views: Array, lobe: LobeLike) -> Array:
@@ -26,6 +26,11 @@ def conserving_scale(normals: Array, tangents: Array, views: Array, lobe: LobeLi
     omega_o = local_frame(normals, tangents, views, lobe.rotation).omega_o
     albedo: Array = directional_albedo(omega_o, lobe.roughness, lobe.alpha)[..., :1]
     return 1.0 / np.maximum(albedo, 1.0)
+
+
+def diffuse_form(sampler: Any) -> DiffuseForm | None:
+    """How a sampler sees the light on diffuse surfaces; None for a reference, which sums exactly."""
+    return None if type(sampler).__name__ == "Reference" else getattr(sampler, "diffuse", "cube")
 
 
 def shade_lobe(
@@ -64,7 +69,7 @@ def shade(
     tangents: npt.ArrayLike,
     views: npt.ArrayLike,
 ) -> Array:
-    """Radiance toward the eye: diffuse part by spherical harmonics, lobes by the sampler, and emission.
+    """Radiance toward the eye: the diffuse part in the sampler's form, lobes by the sampler, and emission.
 
     Points seen from behind are black.
 
@@ -86,7 +91,8 @@ def shade(
     normals, tangents, views = (np.broadcast_to(v, (*shape, v.shape[-1])) for v in (normals, tangents, views))
     total = np.zeros(normals.shape)
     if np.any(as_array(material.diffuse) > 0):
-        total = total + shade_diffuse(project_cube(env_levels[0]), normals, material.diffuse)
+        light = diffuse_light(env_levels[0], normals, diffuse_form(sampler))
+        total = total + as_array(material.diffuse) * light
     if type(sampler).__name__ == "Reference":
         for lobe in material.lobes:
             light = shade_reference(env_levels[0], normals, tangents, views, lobe)

@@ -147,7 +147,8 @@ def test_reduced_maps_are_as_fine_as_the_narrowest_lobe_needs():
         return reduced_face_size([burnish.Material(lobes=[burnish.KurtLobe(m) for m in slopes])])
 
     assert [face_size(0.05), face_size(0.1), face_size(0.6), face_size(0.6, 0.1)] == [256, 128, 32, 128]
-    assert reduced_face_size([burnish.Material(diffuse=1.0)]) == 32
+    # The cosine is wide, but a small lamp sets within a texel: 32 would be off by .15 %, 64 is by .05 %.
+    assert reduced_face_size([burnish.Material(diffuse=1.0)]) == 64
 
 
 def test_a_reduced_map_keeps_mean_and_settings(rng):

@@ -34,6 +34,8 @@ def test_samplers_are_read():
     assert (importance.samples, importance.points) == (30, "fibonacci")
     reference = parse_sampler("reference:0.01")
     assert isinstance(reference, burnish.Reference) and reference.standard_error == pytest.approx(0.01)
+    assert parse_sampler("matched:14:diffuse=harmonics").diffuse == "harmonics"
+    assert parse_sampler("matched:14").diffuse == "cube"
     assert parse_sampler("regular").samples == parse_sampler("importance").samples == 14
 
 

@@ -15,6 +15,10 @@ PAIRS = [
         lambda: burnish.Importance(30, points="fibonacci", mip_bias=1.0),
         "importance:30:fibonacci:mip_bias=1",
     ),
+    (lambda: burnish.Matched(14, diffuse="harmonics"), "matched:14:diffuse=harmonics"),
+    (lambda: burnish.Regular(5, diffuse="harmonics"), "regular:5:diffuse=harmonics"),
+    (lambda: burnish.Importance(5, diffuse="harmonics"), "importance:5:diffuse=harmonics"),
+    (lambda: burnish.Prefiltered(diffuse="harmonics"), "prefiltered:diffuse=harmonics"),
     (lambda: burnish.Reference(0.01), "reference:0.01"),
     (lambda: burnish.Reference(0.01, max_samples=512), "reference:0.01:max_samples=512"),
 ]
@@ -58,6 +62,8 @@ def test_counts_are_written_out():
         ("regular:14:circles=3", "regular:14:circles=3: expected one of .*samples.*, got 'circles'"),
         ("regular:14:threshold=much", "regular:14:threshold=much: "),
         ("regular:14:threshold=2", "threshold"),
+        ("matched:14:diffuse=sum", 'diffuse: expected one of "cube", "harmonics", got "sum"'),
+        ("reference:diffuse=cube", "expected one of .*standard_error.*, got 'diffuse'"),
     ],
 )
 def test_wrong_texts_are_refused(text, message):
