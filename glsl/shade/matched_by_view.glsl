@@ -13,15 +13,10 @@ struct TableView {
 };
 
 TableView view_of_table(LobeView v, uint columns) {
-    vec3 plane = view_plane(v.local_o);
     // 0 along the normal, 1 at the horizon; rows are even in it.
     float cos_o = clamp(v.local_o.z, 0.0, 1.0);
     float radius = sqrt(max(1.0 - 0.5 * (cos_o + sqrt(cos_o)), 0.0));
     TableView view;
-    view.axis1 = plane.x * v.frame[0] + plane.y * v.frame[1];
-    view.axis2 = plane.x * v.frame[1] - plane.y * v.frame[0];
-    view.o = vec2(plane.z, 0.0);
-    view.row = int(radius * float(MATCHED_ROWS - 1u) + 0.5);
     if (HAS_TANGENT && columns > 1u) {
         // A view from the other side is half a turn away.
         float side = v.local_o.y < 0.0 ? -1.0 : 1.0;
@@ -32,12 +27,18 @@ TableView view_of_table(LobeView v, uint columns) {
         const float last = float(MATCHED_VIEW_NODES - 1u);
         vec2 node = view.o * (last * radius / max(max(abs(view.o.x), view.o.y), 1e-20)) + vec2(last + 0.5, 0.5);
         view.row = int(node.y) * int(columns) + int(node.x);
+        return view;
     }
+    vec3 plane = view_plane(v.local_o);
+    view.axis1 = plane.x * v.frame[0] + plane.y * v.frame[1];
+    view.axis2 = plane.x * v.frame[1] - plane.y * v.frame[0];
+    view.o = vec2(plane.z, 0.0);
+    view.row = int(radius * float(MATCHED_ROWS - 1u) + 0.5);
     return view;
 }
 
-// The half-vector g = n + slope mirrors the view to i = 2 (o.g) g - |g|^2 o. An entry's weight lacks the factor
-// (|g|^2 cos_i)^(1-alpha), which changes most from view to view: i has the cosine |g|^2 cos_i.
+// The half-vector g = n + slope mirrors the view to 2 (o.g) g - |g|^2 o, whose part along the normal is |g|^2 cos_i. The weights of
+// entries lack that to the power of 1 - alpha: it changes most from view to view.
 Lookup place_by_view(LobeView v, TableView view, vec4 entry, float schlick) {
     Lookup lookup;
     vec3 g = v.frame[2] + entry.x * view.axis1 + entry.y * view.axis2;
