@@ -3,8 +3,10 @@
 
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
 
 #include "burnish/render/lookup_probe.h"
+#include "burnish/render/lookup_record.h"
 #include "burnish/render/renderer.h"
 #include "burnish/vulkan/memory.h"
 
@@ -117,6 +119,13 @@ void bind_vulkan(py::module_& m) {
         .def("__repr__", [](const vulkan::DeviceInfo& info) {
             return "DeviceInfo('" + info.name + "', '" + info.driver + "')";
         });
+
+    m.def("cache_folder", &render::cache_folder,
+          "Path of what the engine keeps for later processes, which may be deleted at any time: the "
+          "environment "
+          "variable BURNISH_CACHE, else $XDG_CACHE_HOME/burnish, else ~/.cache/burnish. None where "
+          "BURNISH_CACHE "
+          "is \"off\", or no folder is known.");
 
     m.def("list_devices", &vulkan::list_devices, py::call_guard<py::gil_scoped_release>(),
           "All Vulkan devices, with the reasons why some cannot be used. Raises VulkanError if there is no "

@@ -1,6 +1,7 @@
 """Types of the compiled part. Its docstrings say what the names mean; tests hold this file against it."""
 
 from collections.abc import Callable, Sequence
+from pathlib import Path
 from typing import Any, Literal, TypeAlias
 
 import numpy as np
@@ -39,6 +40,7 @@ class DeviceInfo:
     @property
     def refusals(self) -> list[str]: ...
 
+def cache_folder() -> Path | None: ...
 def list_devices() -> list[DeviceInfo]: ...
 
 class Device:
