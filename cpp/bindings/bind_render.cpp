@@ -96,12 +96,12 @@ py::dict report_dict(const render::Report& report) {
 }
 
 py::dict plan_dict(const Scene& scene, const Sampler& sampler, int64_t spp, const std::string& filter,
-                   bool is_software, std::optional<float> display_exposure) {
+                   bool is_software, std::optional<float> display_exposure, const render::Renderer* device) {
     SunCache suns;
     PlanSettings settings = plan_settings(sampler, spp, filter);
     settings.display_exposure = display_exposure;
     constexpr uint64_t no_limit = std::numeric_limits<uint64_t>::max();
-    settings.lookup = choose_lookup(is_software, {}, no_limit, no_limit);
+    settings.lookup = device ? device->lookup() : choose_lookup(is_software, {}, no_limit, no_limit);
     const Plan plan = make_plan(scene, settings, suns);
     py::list passes, classes;
     for (const PassLine& line : plan.passes)
@@ -270,9 +270,12 @@ void bind_render(py::module_& m) {
         "dict: the report of a 1920x1080 frame, for benchmarks. Its lookups may be left out, and its sample "
         "tables read from a "
         "buffer in a loop.");
-    m.def("plan", &plan_dict, py::arg("scene"), py::arg("sampler"), py::arg("spp"), py::arg("filter"),
-          py::arg("is_software"), py::arg("display_exposure").none(true) = py::none(),
-          "dict: passes, effects and shade classes with their reasons; nothing is rendered.");
+    m.def(
+        "plan", &plan_dict, py::arg("scene"), py::arg("sampler"), py::arg("spp"), py::arg("filter"),
+        py::arg("is_software"), py::arg("display_exposure").none(true) = py::none(),
+        py::arg("device").none(true) = py::none(),
+        "dict: passes, effects and shade classes with their reasons; nothing is rendered. A device tells its "
+        "own lookup, is_software that of an unknown one.");
     m.def(
         "capture",
         [](render::Renderer& renderer, const Scene& scene, const Place& point, uint32_t face_size,

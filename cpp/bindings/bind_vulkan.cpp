@@ -3,7 +3,10 @@
 
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
 
+#include "burnish/render/lookup_probe.h"
+#include "burnish/render/lookup_record.h"
 #include "burnish/render/renderer.h"
 #include "burnish/vulkan/memory.h"
 
@@ -48,6 +51,17 @@ py::dict features_of(const vulkan::Device& device) {
     return result;
 }
 
+std::optional<py::dict> measurement_of(const LookupChoice& lookup) {
+    if (!lookup.measured) return std::nullopt;
+    py::dict result;
+    result["sampler_ms"] = lookup.measured->sampler_ms;
+    result["software_ms"] = lookup.measured->software_ms;
+    result["ratio"] = lookup.measured->ratio();
+    result["date"] = lookup.measured->date;
+    result["kept_in"] = lookup.measured->kept_in;
+    return result;
+}
+
 render::Compilation compilation(const std::string& name) {
     if (name == "wait") return render::Compilation::wait;
     if (name == "background") return render::Compilation::background;
@@ -67,11 +81,15 @@ std::shared_ptr<render::Renderer> open_device(const std::string& name, std::opti
                                             least_memory_bytes, ", got ", *memory_limit_bytes));
     if (memory_limit_bytes) settings.memory_limit_bytes = static_cast<VkDeviceSize>(*memory_limit_bytes);
     if (validation) settings.validation = *validation;
-    render::RendererSettings renderer{map_lookup(lookup), compilation(compile)};
+    render::RendererSettings renderer{map_lookup(lookup), {}, compilation(compile)};
     const char* from_environment = std::getenv("BURNISH_LOOKUP");
     if (!renderer.lookup && from_environment && *from_environment)
         renderer.lookup = map_lookup(from_environment);
-    return render::Renderer::open(vulkan::Device::create(settings), renderer);
+    const std::shared_ptr<vulkan::Device> device = vulkan::Device::create(settings);
+    // A driver that compiles for minutes is spared; SwiftShader's sampler shows wrong pictures besides.
+    if (!renderer.lookup && device->info().is_software && !device->info().compiles_slowly)
+        renderer.measured = render::find_lookup_measurement(*device);
+    return render::Renderer::open(device, renderer);
 }
 
 const char* compilation_name(render::Compilation compilation) {
@@ -102,6 +120,13 @@ void bind_vulkan(py::module_& m) {
             return "DeviceInfo('" + info.name + "', '" + info.driver + "')";
         });
 
+    m.def("cache_folder", &render::cache_folder,
+          "Path of what the engine keeps for later processes, which may be deleted at any time: the "
+          "environment "
+          "variable BURNISH_CACHE, else $XDG_CACHE_HOME/burnish, else ~/.cache/burnish. None where "
+          "BURNISH_CACHE "
+          "is \"off\", or no folder is known.");
+
     m.def("list_devices", &vulkan::list_devices, py::call_guard<py::gil_scoped_release>(),
           "All Vulkan devices, with the reasons why some cannot be used. Raises VulkanError if there is no "
           "driver.");
@@ -121,8 +146,11 @@ validation : bool or None
     Validation layer with synchronization validation; its errors are raised. None: the environment variable
     BURNISH_VALIDATION.
 lookup : str
-    How maps are read: "sampler", by the device's own; "software", by ours, which a CPU does in half the time. "auto": the
-    environment variable BURNISH_LOOKUP, else "software" on a CPU.
+    How maps are read: "sampler", by the device's own; "software", by ours, exact to float32. "auto": the environment
+    variable BURNISH_LOOKUP, else "sampler" on a GPU; on a CPU "software", unless its driver takes more than 1.1 times as
+    long for that. The first process on a driver measures it, some 50 ms (200 ms where the driver has to compile), and
+    keeps it for later ones in the folder BURNISH_CACHE, else $XDG_CACHE_HOME/burnish, else ~/.cache/burnish;
+    with BURNISH_CACHE=off every process measures.
 memory_limit_bytes : int or None
     Most memory that it takes from the driver, 2**20 or more; what needs more is refused. None: as much as the driver
     gives, which on a CPU may be more than the machine has to spare.
@@ -153,6 +181,15 @@ VulkanError
         .def_property_readonly(
             "lookup", [](const render::Renderer& self) { return map_lookup_name(self.lookup().wanted); },
             "How maps are read: \"sampler\" or \"software\".")
+        .def_property_readonly(
+            "lookup_reason", [](const render::Renderer& self) { return self.lookup().reason; },
+            "Why they are read that way, a sentence.")
+        .def_property_readonly(
+            "lookup_measurement", [](const render::Renderer& self) { return measurement_of(self.lookup()); },
+            R"(dict or None: what "auto" decided by on a CPU.
+
+Milliseconds of all threads, `sampler_ms` and `software_ms`, for the same lookups by either; their `ratio`, software to
+sampler; `date` (UTC); and `kept_in`, the file that later processes read it from, "" where it could not be kept.)")
         .def_property_readonly(
             "compile", [](const render::Renderer& self) { return compilation_name(self.compilation()); },
             "What a picture does while its pipeline is compiled: \"wait\", \"background\" or \"shared\".")

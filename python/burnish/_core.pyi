@@ -1,6 +1,7 @@
 """Types of the compiled part. Its docstrings say what the names mean; tests hold this file against it."""
 
 from collections.abc import Callable, Sequence
+from pathlib import Path
 from typing import Any, Literal, TypeAlias
 
 import numpy as np
@@ -44,6 +45,7 @@ class DeviceInfo:
     @property
     def refusals(self) -> list[str]: ...
 
+def cache_folder() -> Path | None: ...
 def list_devices() -> list[DeviceInfo]: ...
 
 class Device:
@@ -62,6 +64,10 @@ class Device:
     def is_lost(self) -> bool: ...
     @property
     def lookup(self) -> str: ...
+    @property
+    def lookup_reason(self) -> str: ...
+    @property
+    def lookup_measurement(self) -> dict[str, Any] | None: ...
     @property
     def name(self) -> str: ...
     @property
@@ -364,6 +370,7 @@ def plan(
     filter: str,
     is_software: bool,
     display_exposure: float | None = None,
+    device: Device | None = None,
 ) -> dict[str, Any]: ...
 def render(
     device: Device,

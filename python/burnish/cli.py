@@ -15,7 +15,7 @@ from burnish._extension import load_failure
 from burnish._progress import progress_bar
 
 if TYPE_CHECKING:
-    from burnish import Camera, Environment, Frame, Scene
+    from burnish import Camera, Device, Environment, Frame, Scene
     from burnish.rendering import Sampler
 
 
@@ -137,14 +137,14 @@ def run_render(options: argparse.Namespace) -> int:
     return 0
 
 
-def _is_software() -> bool:
-    """Whether the device that would be taken is a CPU; yes where there is none."""
+def _device_at_hand() -> "Device | None":
+    """Open the device that would be taken; none where there is none."""
     from burnish import Device, VulkanError
 
     try:
-        return Device().is_software
+        return Device()
     except VulkanError:
-        return True
+        return None
 
 
 def format_plan(plan: dict[str, Any]) -> str:
@@ -174,7 +174,8 @@ def run_explain(options: argparse.Namespace) -> int:
     from burnish.rendering import plan
 
     sampler = parse_sampler(options.sampler or DEFAULT_SAMPLER)
-    print(format_plan(plan(prepare_scene(options), sampler, options.spp, options.filter, _is_software())))
+    scene, device = prepare_scene(options), _device_at_hand()
+    print(format_plan(plan(scene, sampler, options.spp, options.filter, device=device)))
     return 0
 
 

@@ -155,6 +155,9 @@ def _chosen(device: "Device") -> list[Finding]:
     findings = [Finding("device", "ok", f"{device.name}, driver {device.driver}")]
     if device.is_software:
         findings.append(Finding("speed", "note", "a CPU; a GPU with a Vulkan 1.3 driver is much faster"))
+    measured = device.lookup_measurement
+    kept = f"; kept in {measured['kept_in']}" if measured and measured["kept_in"] else ""
+    findings.append(Finding("lookup", "ok", f"{device.lookup}: {device.lookup_reason}{kept}"))
     if limits:
         findings.append(Finding("limits", "ok", limits))
     findings.append(Finding("features", "ok", ", ".join(features) or "none beyond what is required"))

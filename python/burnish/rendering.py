@@ -280,8 +280,9 @@ def plan(
     filter: Filter = "gauss6",
     is_software: bool = True,
     output: Output = "linear",
+    device: _core.Device | None = None,
 ) -> dict[str, Any]:
-    """Say what rendering a scene would do, without a device.
+    """Say what rendering a scene would do, without drawing it.
 
     Parameters
     ----------
@@ -294,9 +295,12 @@ def plan(
     filter : "box", "gauss4" or "gauss6"
         Reduction filter of the pyramid.
     is_software : bool
-        Whether the device would be a CPU.
+        Whether the device would be a CPU, where there is no `device`.
     output : "linear" or "display"
         As `render` takes it.
+    device : Device or None
+        The device that would draw: it knows how it reads maps. None: one without limits, whose lookups nobody
+        measured.
 
     Returns
     -------
@@ -306,4 +310,4 @@ def plan(
     require_filter(filter)
     _require_spp(spp)
     sampler = _core.Matched() if sampler is None else sampler
-    return _core.plan(scene, sampler, int(spp), filter, is_software, _stops(output, 0.0))
+    return _core.plan(scene, sampler, int(spp), filter, is_software, _stops(output, 0.0), device)

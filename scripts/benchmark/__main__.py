@@ -12,6 +12,7 @@ from .bench import Bench
 from .changing_maps import bench_changing_maps
 from .compare import SLOWER, compare, read_run, table
 from .compilation import bench_compilation
+from .drivers import bench_drivers
 from .effects import bench_effects
 from .guards import bench_guards
 from .hand_loop import bench_loop
@@ -25,6 +26,7 @@ PARTS: dict[str, tuple[Callable[[Bench], None], str]] = {
     "machine": (bench_machine, "memory copies"),
     "shading": (bench_shading, "a full 1080p frame, its passes, its lookups alone, its shading alone"),
     "lookups": (bench_lookups, "the driver's sampler against the lookup of our own, tables in both places"),
+    "drivers": (bench_drivers, "both lookups on this driver and on a newer one, and which each is given"),
     "loop": (bench_loop, "the lookup of our own against a loop by hand in C++, one core and all"),
     "samplers": (bench_samplers, "Matched against Regular at equal counts"),
     "maps": (bench_maps, "levels that Matched and Prefiltered read"),

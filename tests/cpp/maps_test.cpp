@@ -34,6 +34,29 @@ TEST(LookupChoice, TakesTexelBuffersBeforeStorageBuffersBeforeTheSampler) {
     EXPECT_EQ(choose_lookup(false, MapLookup::software, pairs, pairs).of(16, 1), MapLookup::software);
 }
 
+TEST(LookupChoice, LeavesOursOnACpuWhereItIsMeasuredToTakeClearlyLonger) {
+    const auto choose = [](bool is_software, double software_ms) {
+        return choose_lookup(is_software, {}, 1, 1, LookupMeasurement{2, software_ms, "2026-01-02", "", ""});
+    };
+    EXPECT_EQ(choose(true, 1).wanted, MapLookup::software);
+    EXPECT_EQ(choose(true, 2.18).wanted, MapLookup::software);
+    EXPECT_EQ(choose(true, 2.22).wanted, MapLookup::sampler);
+    EXPECT_DOUBLE_EQ(choose(true, 2.22).measured->ratio(), 1.11);
+    EXPECT_TRUE(holds(choose(true, 2.22).reason, "1.11 x the sampler's time, measured on 2026-01-02"));
+    EXPECT_EQ(choose(false, 1).wanted, MapLookup::sampler);
+    const LookupChoice asked =
+        choose_lookup(true, MapLookup::software, 1, 1, LookupMeasurement{1, 9, "", "", ""});
+    EXPECT_EQ(asked.wanted, MapLookup::software);
+    EXPECT_FALSE(asked.measured);
+}
+
+TEST(LookupChoice, KeepsOursOnACpuWhereNothingCouldBeMeasured) {
+    const LookupChoice choice = choose_lookup(true, {}, 1, 1, LookupMeasurement{0, 0, "", "", "no memory"});
+    EXPECT_EQ(choice.wanted, MapLookup::software);
+    EXPECT_FALSE(choice.measured);
+    EXPECT_TRUE(holds(choice.reason, "that could not be measured: no memory"));
+}
+
 TEST(EnvironmentMaps, StoreEachEnvironmentAsNearestHalves) {
     const std::vector<std::shared_ptr<const Environment>> environments{random_environment(16, 1),
                                                                        random_environment(16, 2)};

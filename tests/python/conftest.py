@@ -15,6 +15,28 @@ if signal.getsignal(signal.SIGINT) == signal.SIG_IGN:
     signal.signal(signal.SIGINT, signal.default_int_handler)
 
 REPOSITORY = Path(__file__).resolve().parents[2]
+# What is measured on the driver is kept between runs, but not among what the user's programs measured.
+os.environ.setdefault("BURNISH_CACHE", str(REPOSITORY / "build/cache"))
+
+
+def pytest_configure(config):
+    """Choose one lookup for the whole run, programs that tests start included."""
+    try:
+        from burnish import Device, VulkanError
+    except ImportError as error:
+        config.burnish_header = f"burnish: {error}"
+        return
+    try:
+        device = Device()
+    except VulkanError as error:
+        config.burnish_header = f"burnish: {error}"
+        return
+    os.environ["BURNISH_LOOKUP"] = device.lookup
+    config.burnish_header = f"{device.driver}, lookup by {device.lookup}: {device.lookup_reason}"
+
+
+def pytest_report_header(config):
+    return config.burnish_header
 
 
 @pytest.fixture(autouse=True)

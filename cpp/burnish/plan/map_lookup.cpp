@@ -1,5 +1,6 @@
 #include "burnish/plan/map_lookup.h"
 
+#include <cmath>
 #include <stdexcept>
 
 #include "burnish/error.h"
@@ -36,15 +37,23 @@ MapLookup LookupChoice::of(uint32_t face_size, uint64_t cubes) const {
 }
 
 LookupChoice choose_lookup(bool is_software, std::optional<MapLookup> asked, uint64_t most_texel_pairs,
-                           uint64_t most_stored_pairs) {
-    LookupChoice choice{MapLookup::sampler, "the device has a sampler in hardware", most_texel_pairs,
-                        most_stored_pairs};
+                           uint64_t most_stored_pairs, const std::optional<LookupMeasurement>& measured) {
+    LookupChoice choice;
+    choice.most_texel_pairs = most_texel_pairs;
+    choice.most_stored_pairs = most_stored_pairs;
     if (asked) {
         choice.wanted = *asked;
         choice.reason = "asked for";
+    } else if (is_software && measured && measured->failure.empty()) {
+        choice.measured = measured;
+        choice.wanted = measured->ratio() > MOST_LOOKUP_RATIO ? MapLookup::sampler : MapLookup::software;
+        choice.reason = message("the device is a CPU; on its driver lookups of our own take ",
+                                std::round(100 * measured->ratio()) / 100,
+                                " x the sampler's time, measured on ", measured->date);
     } else if (is_software) {
         choice.wanted = MapLookup::software;
         choice.reason = "the device is a CPU: its sampler would take most of a frame";
+        if (measured) choice.reason += "; that could not be measured: " + measured->failure;
     }
     return choice;
 }

@@ -24,7 +24,7 @@ Renderer::Renderer(std::shared_ptr<vulkan::Device> device, const RendererSetting
     : device_(std::move(device)),
       lookup_(choose_lookup(device_->info().is_software, settings.lookup,
                             device_->limits().maxTexelBufferElements,
-                            device_->limits().maxStorageBufferRange / sizeof(glm::uvec4))),
+                            device_->limits().maxStorageBufferRange / sizeof(glm::uvec4), settings.measured)),
       compilation_(settings.compilation), pipelines_(device_), map_tools_(device_), placeholders_(device_),
       targets_(std::make_shared<TargetPool>(device_)) {}
 

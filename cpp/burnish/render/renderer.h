@@ -49,7 +49,8 @@ enum class Compilation {
 };
 
 struct RendererSettings {
-    std::optional<MapLookup> lookup; ///< none for what is best on the device
+    std::optional<MapLookup> lookup;           ///< none for what is best on the device
+    std::optional<LookupMeasurement> measured; ///< that decides which is best on a CPU device
     Compilation compilation = Compilation::wait;
 };
 

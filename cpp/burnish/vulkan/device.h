@@ -26,6 +26,7 @@ struct MemoryStatistics;
 struct DeviceInfo {
     std::string name;             // as the driver reports it, e.g. "llvmpipe (LLVM 15.0.6, 256 bits)"
     std::string driver;           // name and version of the driver, e.g. "llvmpipe Mesa 22.3.6"
+    std::string uuid;             // of the device and of the driver's build, 64 hexadecimal digits
     bool is_software = false;     // the device is a CPU
     bool compiles_slowly = false; // kernels whose loops are written out: minutes, and gigabytes of memory
     uint32_t api_version = 0;     // VK_MAKE_API_VERSION coding

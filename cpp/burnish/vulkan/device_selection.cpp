@@ -7,6 +7,7 @@
 #include <cctype>
 #include <cstring>
 #include <optional>
+#include <span>
 
 namespace burnish::vulkan {
 
@@ -70,8 +71,19 @@ std::vector<std::string> find_missing_features(VkPhysicalDevice device) {
     return missing;
 }
 
+std::string hexadecimal(std::span<const uint8_t> bytes) {
+    std::string text;
+    for (const uint8_t byte : bytes) {
+        text += "0123456789abcdef"[byte >> 4];
+        text += "0123456789abcdef"[byte & 15];
+    }
+    return text;
+}
+
 Candidate inspect(VkPhysicalDevice device) {
+    VkPhysicalDeviceIDProperties ids{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_ID_PROPERTIES};
     VkPhysicalDeviceDriverProperties driver{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DRIVER_PROPERTIES};
+    driver.pNext = &ids;
     VkPhysicalDeviceProperties2 properties{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2, &driver, {}};
     vkGetPhysicalDeviceProperties2(device, &properties);
 
@@ -81,6 +93,7 @@ Candidate inspect(VkPhysicalDevice device) {
     DeviceInfo& info = candidate.info;
     info.name = properties.properties.deviceName;
     info.driver = message(driver.driverName, *driver.driverInfo ? " " : "", driver.driverInfo);
+    info.uuid = hexadecimal(ids.deviceUUID) + hexadecimal(ids.driverUUID);
     info.is_software = candidate.type == VK_PHYSICAL_DEVICE_TYPE_CPU;
     info.compiles_slowly = driver.driverID == VK_DRIVER_ID_GOOGLE_SWIFTSHADER;
     info.api_version = properties.properties.apiVersion;

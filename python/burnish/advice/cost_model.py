@@ -6,7 +6,6 @@ and kept in the user's cache folder, in one file for each device, driver and ver
 
 import hashlib
 import json
-import os
 import statistics
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -70,14 +69,8 @@ def traits_of_class(effects: Sequence[str]) -> Traits:
     return Traits(sum(counts), "fresnel" in effects, alpha, "anisotropy" in effects)
 
 
-def cache_folder() -> Path:
-    """Name ``$XDG_CACHE_HOME/burnish``, or ``~/.cache/burnish``: it may be deleted at any time."""
-    root = os.environ.get("XDG_CACHE_HOME")
-    return (Path(root) if root else Path.home() / ".cache") / "burnish"
-
-
-def cache_path(device: _core.Device) -> Path:
-    """File that holds the rates of a device.
+def cache_path(device: _core.Device) -> Path | None:
+    """File that holds the rates of a device, in the engine's cache; None where that is switched off.
 
     Parameters
     ----------
@@ -85,7 +78,8 @@ def cache_path(device: _core.Device) -> Path:
         Its name, driver and lookup and the version of burnish decide the file's name.
     """
     name = f"{device.name}|{device.driver}|{device.lookup}|{burnish.__version__}"
-    return cache_folder() / f"cost-{hashlib.sha256(name.encode()).hexdigest()[:12]}.json"
+    folder = _core.cache_folder()
+    return folder / f"cost-{hashlib.sha256(name.encode()).hexdigest()[:12]}.json" if folder else None
 
 
 class CostModel:
@@ -136,12 +130,16 @@ class CostModel:
         return self._rates[key]
 
     def _load(self) -> dict[str, dict[str, float]]:
+        if self._path is None:
+            return {}
         try:
             return dict(json.loads(self._path.read_text(encoding="utf-8"))["rates_ns"])
         except (OSError, ValueError, KeyError, TypeError):
             return {}  # absent or damaged: it is measured again
 
     def _save(self) -> None:
+        if self._path is None:
+            return
         data = {
             "device": self._device.name,
             "driver": self._device.driver,
@@ -159,7 +157,8 @@ class CostModel:
     def forget(self) -> None:
         """Delete what is known, so that it is measured again."""
         self._rates = {}
-        self._path.unlink(missing_ok=True)
+        if self._path is not None:
+            self._path.unlink(missing_ok=True)
 
 
 def interpolate_rate(rates: dict[int, float], count: int) -> float:

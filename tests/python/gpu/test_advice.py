@@ -30,7 +30,7 @@ PRICES = {"matched": 10.0, "regular": 10.0, "importance": 12.0, "prefiltered": 3
 @pytest.fixture(autouse=True)
 def made_up_prices(tmp_path, monkeypatch):
     """Measuring prices compiles many pipelines, and what is tested here is errors."""
-    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
+    monkeypatch.setenv("BURNISH_CACHE", str(tmp_path))
     monkeypatch.setattr(
         cost_model,
         "measure_rates",

@@ -91,6 +91,7 @@ def test_text_files_end_in_one_newline_and_hold_no_tabs(texts):
         "scripts/lint",
         "scripts/fuzz",
         "scripts/sanitize",
+        "scripts/newer-driver",
         ".ci/run",
     ],
 )

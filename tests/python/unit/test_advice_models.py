@@ -138,8 +138,22 @@ def test_what_has_no_lobe_costs_nothing_by_the_sampler(tmp_path):
 
 
 def test_the_cache_lies_where_the_user_wants_it(tmp_path, monkeypatch):
+    monkeypatch.setenv("BURNISH_CACHE", "")
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
     assert cost_model.cache_path(NamedDevice()).parent == tmp_path / "burnish"
+    monkeypatch.setenv("BURNISH_CACHE", str(tmp_path / "own"))
+    assert cost_model.cache_path(NamedDevice()).parent == tmp_path / "own"
+
+
+def test_without_a_cache_prices_last_as_long_as_the_model(monkeypatch):
+    monkeypatch.setenv("BURNISH_CACHE", "off")
+    assert cost_model.cache_path(NamedDevice()) is None
+    monkeypatch.setattr(cost_model, "measure_rates", lambda *_: {"5": 7.0})
+    model = CostModel(NamedDevice())
+    assert model.shade_ns("matched", 5, ROUND) == 7.0
+    model.forget()
+    monkeypatch.setattr(cost_model, "measure_rates", lambda *_: {"5": 8.0})
+    assert model.shade_ns("matched", 5, ROUND) == 8.0
 
 
 def test_reduced_maps_are_as_fine_as_the_narrowest_lobe_needs():
