@@ -174,7 +174,9 @@ def test_frame_reports_what_the_plan_said(device, spots64):
     assert [one["effects"] for one in report.classes] == [one["effects"] for one in plan["classes"]]
     ran = {entry["name"] for entry in report.passes}
     # What is made of the map may be there from an earlier frame.
-    assert set(passes(plan)) <= ran | {"pyramid", "irradiance", "pack"}, f"planned {passes(plan)}, ran {sorted(ran)}"
+    assert set(passes(plan)) <= ran | {"pyramid", "irradiance", "pack"}, (
+        f"planned {passes(plan)}, ran {sorted(ran)}"
+    )
     assert all(entry["milliseconds"] >= 0 for entry in report.passes)
     assert report.size == (24, 32) and report.spp == 2
 
