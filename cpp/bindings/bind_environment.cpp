@@ -8,6 +8,7 @@
 #include <pybind11/stl.h>
 
 #include "burnish/scene/environment.h"
+#include "interpreter.h"
 #include "numpy.h"
 
 namespace burnish {
@@ -90,7 +91,7 @@ std::shared_ptr<Environment> environment_from_lat_long(const py::array& img, int
     const auto width = static_cast<uint32_t>(checked.shape(1));
     const LatLongGrid grid = border_samples ? LatLongGrid::samples : LatLongGrid::bands;
     Environment environment = [&] {
-        const py::gil_scoped_release release;
+        const Released release;
         return Environment::from_lat_long(height, width, radiance, static_cast<uint32_t>(face_size), grid);
     }();
     return finish(std::move(environment), exposure, rotation);

@@ -7,6 +7,7 @@
 
 #include "burnish/render/renderer.h"
 #include "burnish/sampling/prefilter_table.h"
+#include "interpreter.h"
 #include "numpy.h"
 
 namespace burnish {
@@ -20,7 +21,7 @@ Levels make_levels(render::Renderer& renderer, const EnvironmentPointer& environ
                    const std::string& filter, std::optional<PrefilterKernel> kernel,
                    std::vector<vulkan::PassTime>* times = nullptr) {
     const PyramidFilter chosen = pyramid_filter(filter);
-    const py::gil_scoped_release release;
+    const Released release;
     return kernel ? renderer.prefiltered(*kernel, environment, chosen, times)
                   : renderer.pyramid(environment, chosen, times);
 }

@@ -7,6 +7,7 @@
 
 #include "burnish/scene/hdr.h"
 #include "burnish/scene/png16.h"
+#include "interpreter.h"
 #include "numpy.h"
 
 namespace burnish {
@@ -22,7 +23,7 @@ std::span<const uint8_t> span_of(const py::bytes& data) {
 py::tuple decode_hdr_array(const py::bytes& data, const std::string& name) {
     HdrImage image = [&] {
         const std::span<const uint8_t> bytes = span_of(data);
-        const py::gil_scoped_release release;
+        const Released release;
         return decode_hdr(name, bytes);
     }();
     py::dict header;
@@ -38,7 +39,7 @@ py::tuple decode_hdr_array(const py::bytes& data, const std::string& name) {
 py::array_t<uint16_t> decode_png16_array(const py::bytes& data, const std::string& name) {
     Png16Image image = [&] {
         const std::span<const uint8_t> bytes = span_of(data);
-        const py::gil_scoped_release release;
+        const Released release;
         return decode_png16(name, bytes);
     }();
     return make_array<uint16_t>(std::move(image.samples), {image.height, image.width, image.channels});

@@ -6,6 +6,7 @@
 #include "burnish/render/probe.h"
 #include "burnish/render/renderer.h"
 #include "burnish/vulkan/device.h"
+#include "interpreter.h"
 #include "numpy.h"
 #include "shared/probe.h"
 
@@ -17,7 +18,7 @@ py::array_t<float> probe(const render::Renderer& renderer, const std::string& li
     const auto checked = require_array<float>(arguments, "arguments", {any, any, 4});
     std::vector<float> results;
     {
-        const py::gil_scoped_release release;
+        const Released release;
         const std::span<const float> values(checked.data(), static_cast<size_t>(checked.size()));
         results = render::run_probe(renderer.device(), library, function, values,
                                     static_cast<uint32_t>(checked.shape(1)));

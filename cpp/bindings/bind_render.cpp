@@ -8,6 +8,7 @@
 
 #include "burnish/render/capture.h"
 #include "burnish/render/renderer.h"
+#include "interpreter.h"
 #include "numpy.h"
 #include "scene_values.h"
 
@@ -19,9 +20,13 @@ using ProgressFunction = std::function<void(double, const std::string&)>;
 /// Tells Python how far the work is, and lets Ctrl-C end it. Called without the interpreter's lock.
 render::Progress interruptible(const std::optional<ProgressFunction>& progress) {
     return [&progress](double fraction, const std::string& text) {
-        const py::gil_scoped_acquire acquire;
-        if (progress) (*progress)(fraction, text);
-        if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+        stop_where_interpreter_ends();
+        {
+            const Held held;
+            if (progress) (*progress)(fraction, text);
+            if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+        }
+        stop_where_interpreter_ends();
     };
 }
 
@@ -185,7 +190,7 @@ py::array_t<float> shade_points(render::Renderer& renderer, const std::shared_pt
     std::vector<glm::vec3> radiance;
     render::Report report;
     {
-        const py::gil_scoped_release release;
+        const Released release;
         radiance = renderer.shade(environment, material, points, settings, &report, interruptible({}));
     }
     if (is_strict) raise_if_stopped(report);
@@ -208,7 +213,7 @@ std::shared_ptr<render::Frame> render_scene(render::Renderer& renderer, const Sc
     settings.progress = interruptible(progress);
     FramePointer frame;
     {
-        const py::gil_scoped_release release;
+        const Released release;
         frame = std::make_shared<render::Frame>(
             renderer.render(scene, camera ? *camera : scene.default_camera(), settings));
     }
@@ -280,7 +285,7 @@ void bind_render(py::module_& m) {
         "capture",
         [](render::Renderer& renderer, const Scene& scene, const Place& point, uint32_t face_size,
            std::optional<uint32_t> without_object) {
-            const py::gil_scoped_release release;
+            const Released release;
             return render::capture(renderer, scene, dvec3_of(point), face_size, without_object);
         },
         py::arg("device"), py::arg("scene"), py::arg("point"), py::arg("face_size"),

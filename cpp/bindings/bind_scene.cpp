@@ -4,6 +4,7 @@
 
 #include "burnish/scene/check.h"
 #include "burnish/scene/scene.h"
+#include "interpreter.h"
 #include "scene_values.h"
 
 namespace burnish {
@@ -102,7 +103,7 @@ void bind_scene(py::module_& m) {
         .def_static(
             "from_file",
             [](const std::filesystem::path& path) {
-                const py::gil_scoped_release release;
+                const Released release;
                 return std::make_shared<Scene>(load_gltf(path.string()));
             },
             py::arg("path"), R"(Read a glTF 2.0 file.

@@ -1,5 +1,10 @@
 // Devices. A Python Device is a renderer with its device: what one frame leaves behind, the next can use.
+#include <memory>
+#include <mutex>
 #include <optional>
+#include <vector>
+
+#include <pthread.h>
 
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
@@ -9,6 +14,7 @@
 #include "burnish/render/lookup_record.h"
 #include "burnish/render/renderer.h"
 #include "burnish/vulkan/memory.h"
+#include "interpreter.h"
 
 namespace py = pybind11;
 
@@ -69,11 +75,20 @@ render::Compilation compilation(const std::string& name) {
     throw std::invalid_argument(message("compile: expected wait, background or shared, got '", name, "'"));
 }
 
+struct OpenRenderers {
+    std::mutex mutex;
+    std::vector<std::weak_ptr<render::Renderer>> all;
+};
+
+/// Never destroyed: a thread may outlive what is static. A fork has none: those of its parent are not to be
+/// touched.
+OpenRenderers* open_renderers = new OpenRenderers;
+
 std::shared_ptr<render::Renderer> open_device(const std::string& name, std::optional<bool> validation,
                                               const std::string& lookup,
                                               std::optional<int64_t> memory_limit_bytes,
                                               const std::string& compile) {
-    const py::gil_scoped_release release;
+    const Released release;
     vulkan::DeviceSettings settings;
     settings.name = name;
     if (memory_limit_bytes && *memory_limit_bytes < least_memory_bytes)
@@ -89,7 +104,17 @@ std::shared_ptr<render::Renderer> open_device(const std::string& name, std::opti
     // A driver that compiles for minutes is spared; SwiftShader's sampler shows wrong pictures besides.
     if (!renderer.lookup && device->info().is_software && !device->info().compiles_slowly)
         renderer.measured = render::find_lookup_measurement(*device);
-    return render::Renderer::open(device, renderer);
+    std::shared_ptr<render::Renderer> opened = render::Renderer::open(device, renderer);
+    const std::lock_guard lock(open_renderers->mutex);
+    std::erase_if(open_renderers->all, [](const auto& one) { return one.expired(); });
+    open_renderers->all.push_back(opened);
+    return opened;
+}
+
+void stop_compiling() {
+    const std::lock_guard lock(open_renderers->mutex);
+    for (const std::weak_ptr<render::Renderer>& one : open_renderers->all)
+        if (const std::shared_ptr<render::Renderer> renderer = one.lock()) renderer->stop_compiling();
 }
 
 const char* compilation_name(render::Compilation compilation) {
@@ -107,6 +132,8 @@ const char* compilation_name(render::Compilation compilation) {
 } // namespace
 
 void bind_vulkan(py::module_& m) {
+    rest_at_interpreter_exit(stop_compiling);
+    pthread_atfork(nullptr, nullptr, [] { open_renderers = new OpenRenderers; });
     py::class_<vulkan::DeviceInfo>(m, "DeviceInfo", "A Vulkan device of this machine, usable or not.")
         .def_readonly("name", &vulkan::DeviceInfo::name, "As the driver gives it.")
         .def_readonly("driver", &vulkan::DeviceInfo::driver, "Name and version of the driver.")
@@ -127,7 +154,7 @@ void bind_vulkan(py::module_& m) {
           "BURNISH_CACHE "
           "is \"off\", or no folder is known.");
 
-    m.def("list_devices", &vulkan::list_devices, py::call_guard<py::gil_scoped_release>(),
+    m.def("list_devices", &vulkan::list_devices, py::call_guard<Released>(),
           "All Vulkan devices, with the reasons why some cannot be used. Raises VulkanError if there is no "
           "driver.");
 
@@ -194,7 +221,7 @@ sampler; `date` (UTC); and `kept_in`, the file that later processes read it from
             "compile", [](const render::Renderer& self) { return compilation_name(self.compilation()); },
             "What a picture does while its pipeline is compiled: \"wait\", \"background\" or \"shared\".")
         .def("finish_compiling", &render::Renderer::finish_compiling,
-             py::call_guard<py::gil_scoped_release>(),
+             py::call_guard<Released>(),
              "Wait until no pipeline is left to be compiled in the background, where six wait at most, the "
              "newest. What the last picture showed is then drawn as it stays. For times and tests; a program "
              "that draws on need not call it.")

@@ -113,6 +113,18 @@ TEST(CompileWorker, MayEndAmidAJob) {
     const CompileWorker idle([](const ComputeKey&) {});
 }
 
+TEST(CompileWorker, TakesNothingMoreOnceItIsClosed) {
+    std::vector<std::string> done;
+    CompileWorker worker([&](const ComputeKey& key) { done.push_back(key.first); });
+    want(worker, {"first"});
+    worker.wait();
+    worker.close();
+    worker.close();
+    want(worker, {"second"});
+    worker.wait(); // for nothing
+    EXPECT_EQ(done, std::vector<std::string>{"first"});
+}
+
 TEST(CompileWorker, WaitsForNothingWhenNothingIsWanted) {
     CompileWorker worker([](const ComputeKey&) { FAIL(); });
     worker.wait();

@@ -17,10 +17,11 @@ void step_back() {
 
 } // namespace
 
-CompileWorker::~CompileWorker() {
+void CompileWorker::close() {
     {
         const std::lock_guard lock(mutex_);
         is_closing_ = true;
+        waiting_.clear();
     }
     wake_.notify_all();
     if (thread_.joinable()) thread_.join();
@@ -28,6 +29,7 @@ CompileWorker::~CompileWorker() {
 
 void CompileWorker::want(std::span<const ComputeKey> keys) {
     const std::lock_guard lock(mutex_);
+    if (is_closing_) return;
     std::erase_if(waiting_, [&](const ComputeKey& key) {
         return std::find(keys.begin(), keys.end(), key) != keys.end();
     });

@@ -32,9 +32,11 @@ public:
     explicit CompileWorker(std::function<void(const ComputeKey&)> compile) : compile_(std::move(compile)) {}
     CompileWorker(const CompileWorker&) = delete;
     CompileWorker& operator=(const CompileWorker&) = delete;
-    ~CompileWorker();
+    ~CompileWorker() { close(); }
 
-    /// Puts the keys before all that wait.
+    /// Drops what waits and ends the thread, after what it is at.
+    void close();
+    /// Puts the keys before all that wait, unless it is closed.
     void want(std::span<const ComputeKey> keys);
     /// Until nothing waits or is at work.
     void wait();

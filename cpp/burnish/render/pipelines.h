@@ -28,6 +28,8 @@ public:
     bool request(std::span<const ComputeKey> keys);
     /// Waits until nothing asked for is left to compile.
     void finish_compiling() { worker_.wait(); }
+    /// Compiles nothing more meanwhile; waits for what is being compiled.
+    void stop_compiling() { worker_.close(); }
     /// `settings.constants` and `key` tell pipelines of the same two shaders apart.
     const vulkan::GraphicsPipeline& graphics(const std::string& vertex, const std::string& fragment,
                                              const std::string& key,

@@ -69,6 +69,8 @@ public:
 
     /// Waits until no pipeline is left to be compiled in the background. Errors are the next picture's.
     void finish_compiling();
+    /// Compiles nothing in the background any more, for when the process ends.
+    void stop_compiling() { pipelines_.stop_compiling(); }
 
     /// Throws std::invalid_argument for a scene or settings that make no sense, VulkanError if the device
     /// fails.
