@@ -2,10 +2,12 @@
 #include <span>
 
 #include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
 
 #include "burnish/render/probe.h"
 #include "burnish/render/renderer.h"
 #include "burnish/vulkan/device.h"
+#include "burnish/vulkan/validation.h"
 #include "interpreter.h"
 #include "numpy.h"
 #include "shared/probe.h"
@@ -42,13 +44,20 @@ Parameters
 ----------
 device : Device
 call : str
-    "vkQueueSubmit2", "vkAllocateMemory", "vkCreateComputePipelines" or "vkCreateGraphicsPipelines".
+    "vkQueueSubmit2", "vkAllocateMemory", "vkCreateComputePipelines", "vkCreateGraphicsPipelines", or "vkFreeMemory" for
+    all memory that is left when the device is closed.
 result : int
     The VkResult that it returns, without being made.
 skip : int
     Calls that go well before.
 times : int
     Calls that fail then.)");
+    m.def("closing_messages", &vulkan::closing_messages,
+          "What the validation layer said while devices were closed, its hints on speed left out.");
+    m.def("exit_on_closing_messages", &vulkan::exit_on_closing_messages,
+          "From now on such a message ends the process with exit code 1; for tests, whose last devices are "
+          "closed when none "
+          "is left to fail.");
     m.def("probe", &probe, py::arg("device"), py::arg("library"), py::arg("function"), py::arg("arguments"),
           R"(Run one function of the shader library over a list of items; for tests.
 

@@ -10,6 +10,8 @@ os.environ.setdefault("BURNISH_VALIDATION", "1")
 import numpy as np
 import pytest
 
+pytest_plugins = ["closing_check"]
+
 # A shell that starts the tests in the background has them, and the commands they interrupt, ignore Ctrl-C.
 if signal.getsignal(signal.SIGINT) == signal.SIG_IGN:
     signal.signal(signal.SIGINT, signal.default_int_handler)

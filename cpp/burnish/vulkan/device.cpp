@@ -10,7 +10,6 @@
 
 #include <algorithm>
 #include <charconv>
-#include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <limits>
@@ -185,11 +184,15 @@ Device::~Device() {
         static_cast<void>(log_.release());
         return;
     }
+    if (log_) log_->begin_closing(); // no later submit can throw its messages, and a destructor must not
     if (device_ != VK_NULL_HANDLE) {
         vkDeviceWaitIdle(device_);
         frames_.reset();
         descriptors_.reset();
-        memory_.reset();
+        if (take_fault("vkFreeMemory") == VK_SUCCESS)
+            memory_.reset();
+        else
+            static_cast<void>(memory_.release());
         vkDestroyPipelineCache(device_, pipeline_cache_, nullptr);
         vkDestroyDevice(device_, nullptr);
     }
@@ -199,11 +202,7 @@ Device::~Device() {
         destroy(instance_, messenger_, nullptr);
     }
     if (instance_ != VK_NULL_HANDLE) vkDestroyInstance(instance_, nullptr);
-    // No later submit can throw these, and a destructor must not.
-    if (const std::string errors = log_ ? log_->take_errors() : ""; !errors.empty()) {
-        std::fprintf(stderr, "burnish: validation errors while closing %s:\n%s\n", info_.name.c_str(),
-                     errors.c_str());
-    }
+    if (log_) log_->end_closing(info_.name);
 }
 
 std::vector<std::string> Device::validation_messages() const {

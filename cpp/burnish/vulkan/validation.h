@@ -18,6 +18,10 @@ public:
     std::vector<std::string> messages() const;
     /// The errors not handed out before, one per line; empty if none.
     std::string take_errors();
+    /// To be called before what it watches is destroyed, and after. What came between, and what no call has
+    /// told, are closing messages, which go to stderr.
+    void begin_closing();
+    void end_closing(const std::string& device_name);
 
 private:
     static VKAPI_ATTR VkBool32 VKAPI_CALL receive(VkDebugUtilsMessageSeverityFlagBitsEXT severity,
@@ -29,6 +33,16 @@ private:
     mutable std::mutex mutex_;
     std::vector<std::string> messages_;
     std::vector<std::string> untold_errors_;
+    std::vector<std::string> closing_messages_;
+    bool is_closing_ = false;
 };
+
+/// What the validation layer said while devices of this process were closed, its hints on speed left out: no
+/// call is left that could throw it.
+std::vector<std::string> closing_messages();
+
+/// From now on such a message ends the process at once, with exit code 1: for tests, whose last devices are
+/// closed when no test is left to fail.
+void exit_on_closing_messages();
 
 } // namespace burnish::vulkan
