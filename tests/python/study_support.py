@@ -1,5 +1,7 @@
 """A subject that is drawn without a device, so that what a study does with it can be worked out by hand."""
 
+from contextlib import nullcontext
+
 import numpy as np
 
 import burnish
@@ -41,6 +43,9 @@ class FakeSubject:
 
     def device_names(self):
         return {"device": "a <fast> device", "driver": "its driver", "is_software": True}
+
+    def keeping_pipelines(self, sampler_count):
+        return nullcontext()
 
     def describe(self):
         return {

@@ -14,6 +14,8 @@ namespace burnish {
 namespace {
 
 constexpr VkDeviceSize MOST_SPARE_BYTES = VkDeviceSize{256} << 20;
+/// Of the tools, for maps of several sizes that take turns; one size may need more.
+constexpr uint64_t MOST_SCRATCH_BYTES = uint64_t{128} << 20;
 
 using EnvironmentSpan = std::span<const std::shared_ptr<const Environment>>;
 
@@ -56,11 +58,20 @@ MapRoom MapTools::take_room(const vulkan::ImageSettings& settings, MapLookup loo
             vulkan::ElementBuffer(device_, pairs, VK_FORMAT_R32G32B32A32_UINT, access)};
 }
 
+uint64_t MapRoom::memory_bytes() const {
+    uint64_t bytes = pairs.buffer().size_bytes();
+    for (uint32_t level = 0; level < image.settings().levels; ++level)
+        bytes += image.level_bytes(level) * image.settings().layers;
+    return bytes;
+}
+
 void MapTools::keep_room(MapRoom room) {
-    VkDeviceSize bytes = room.pairs.buffer().size_bytes();
-    for (uint32_t level = 0; level < room.image.settings().levels; ++level)
-        bytes += room.image.level_bytes(level) * room.image.settings().layers;
-    if (bytes <= MOST_SPARE_BYTES) spare_ = std::move(room);
+    if (room.memory_bytes() <= MOST_SPARE_BYTES) spare_ = std::move(room);
+}
+
+void MapTools::free_surplus() {
+    if (pyramid_.scratch_bytes() > MOST_SCRATCH_BYTES) pyramid_.free_scratches();
+    if (prefilter_ && prefilter_->scratch_bytes() > MOST_SCRATCH_BYTES) prefilter_->free_scratches();
 }
 
 void MapTools::free() {
@@ -74,6 +85,7 @@ EnvironmentMaps::EnvironmentMaps(MapTools& tools, EnvironmentSpan environments, 
     const uint32_t face_size = common_face_size(environments, device->limits().maxImageArrayLayers);
     if (wanted.kernel && !wanted.filter)
         throw std::invalid_argument("filter: expected one, from whose pyramid to prefilter, got none");
+    tools.free_surplus();
     const auto cube_count = static_cast<uint32_t>(environments.size());
     vulkan::ImageSettings settings;
     settings.format = VK_FORMAT_R16G16B16A16_SFLOAT;

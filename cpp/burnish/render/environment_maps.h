@@ -17,6 +17,8 @@ namespace burnish {
 struct MapRoom {
     vulkan::Image image;
     vulkan::ElementBuffer pairs; ///< a single one where maps are not packed
+
+    uint64_t memory_bytes() const;
 };
 
 /// What maps are made with, kept for the next ones. Not for several threads at once.
@@ -35,6 +37,8 @@ public:
     void keep_room(MapRoom room);
     /// Gives back what is only kept for the next maps.
     void free();
+    /// Gives back room for maps of other sizes, where there is much. To be called before a map is begun.
+    void free_surplus();
 
 private:
     std::shared_ptr<const vulkan::Device> device_;
@@ -54,10 +58,10 @@ struct MapSettings {
 
 class EnvironmentMaps {
 public:
-    /// Uploads the environments, all of one face size, as RGBA16F rounded to nearest even, and makes their
-    /// levels. Rotation and exposure stay with the environments: they are applied when a map is looked up.
-    /// Throws std::invalid_argument if there is none, if one is null or of another size, if prefiltered maps
-    /// are to come without a filter, or if the device's images have too few layers.
+    /// Uploads the environments, all of one face size, as RGBA16F, each over the unit of its HalfRange and
+    /// rounded to nearest even, and makes their levels. Rotation, exposure and unit are applied when a map is
+    /// looked up. Throws std::invalid_argument if there is none, if one is null or of another size, if
+    /// prefiltered maps are to come without a filter, or if the device's images have too few layers.
     EnvironmentMaps(MapTools& tools, std::span<const std::shared_ptr<const Environment>> environments,
                     const MapSettings& settings);
 
@@ -69,11 +73,12 @@ public:
     uint32_t face_size() const { return image().settings().width; }
     uint32_t count() const { return image().settings().layers / 6; }
     uint32_t level_count() const { return image().settings().levels; }
+    uint64_t memory_bytes() const { return room_.memory_bytes(); }
     /// "upload" and "pack", as the host sees them, "pyramid" and "prefilter", as the device does, where they
     /// were made.
     const std::vector<vulkan::PassTime>& pass_times() const { return pass_times_; }
 
-    /// One cube's levels as stored, finest first: 6 n n 3 floats each (face, row, column, channel).
+    /// One cube's levels as lookups see them, finest first: 6 n n 3 floats each (face, row, column, channel).
     std::vector<std::vector<float>> read_levels(uint32_t cube);
 
     /// For MapTools::keep_room; nothing else may be asked of the maps then.

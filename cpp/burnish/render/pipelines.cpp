@@ -46,8 +46,42 @@ const std::map<std::string, std::span<const uint32_t>>& spirv() {
 
 } // namespace
 
-Pipelines::Pipelines(vulkan::DevicePointer device)
-    : device_(std::move(device)), worker_([this](const ComputeKey& key) { compile_meanwhile(key); }) {}
+Pipelines::Pipelines(vulkan::DevicePointer device, size_t budget)
+    : device_(std::move(device)), budget_(budget),
+      worker_([this](const ComputeKey& key) { compile_meanwhile(key); }) {}
+
+void Pipelines::begin_picture() {
+    const std::lock_guard lock(mutex_);
+    const auto oldest = [&](auto& cache) {
+        return std::min_element(cache.begin(), cache.end(), [](const auto& one, const auto& other) {
+            return one.second.last_picture < other.second.last_picture;
+        });
+    };
+    const auto age = [&](const auto& cache, const auto& found) {
+        return found == cache.end() ? 0 : picture_ - found->second.last_picture;
+    };
+    while (compute_.size() + graphics_.size() > budget_) {
+        const auto compute = oldest(compute_);
+        const auto graphics = oldest(graphics_);
+        const uint64_t compute_age = age(compute_, compute), graphics_age = age(graphics_, graphics);
+        if (compute_age == 0 && graphics_age == 0) break;
+        if (compute_age >= graphics_age)
+            compute_.erase(compute);
+        else
+            graphics_.erase(graphics);
+    }
+    ++picture_;
+}
+
+size_t Pipelines::count() const {
+    const std::lock_guard lock(mutex_);
+    return compute_.size() + graphics_.size();
+}
+
+template <typename Pipeline>
+const Pipeline& Pipelines::keep(Cache<Pipeline>& cache, const ComputeKey& key, Pipeline pipeline) {
+    return cache.emplace(key, Kept<Pipeline>{std::move(pipeline), picture_}).first->second.pipeline;
+}
 
 const vulkan::Shader& Pipelines::find_shader(const std::string& name) {
     const auto found = shaders_.find(name);
@@ -65,13 +99,15 @@ const vulkan::Shader& Pipelines::shader(const std::string& name) {
 const vulkan::ComputePipeline& Pipelines::compute(const std::string& name,
                                                   const vulkan::SpecializationConstants& constants) {
     const std::lock_guard lock(mutex_);
-    const auto key = std::make_pair(name, constants);
-    auto found = compute_.find(key);
-    if (found == compute_.end()) {
-        found = compute_.emplace(key, vulkan::ComputePipeline(device_, find_shader(name), constants)).first;
-        compile_ms_ += found->second.compile_ms();
+    const ComputeKey key(name, constants);
+    const auto found = compute_.find(key);
+    if (found != compute_.end()) {
+        found->second.last_picture = picture_;
+        return found->second.pipeline;
     }
-    return found->second;
+    vulkan::ComputePipeline pipeline(device_, find_shader(name), constants);
+    compile_ms_ += pipeline.compile_ms();
+    return keep(compute_, key, std::move(pipeline));
 }
 
 bool Pipelines::request(std::span<const ComputeKey> keys) {
@@ -79,8 +115,13 @@ bool Pipelines::request(std::span<const ComputeKey> keys) {
     std::vector<ComputeKey> missing;
     {
         const std::lock_guard lock(mutex_);
-        std::copy_if(keys.begin(), keys.end(), std::back_inserter(missing),
-                     [&](const ComputeKey& key) { return !compute_.contains(key); });
+        for (const ComputeKey& key : keys) {
+            const auto found = compute_.find(key);
+            if (found == compute_.end())
+                missing.push_back(key);
+            else
+                found->second.last_picture = picture_; // the others will come to it
+        }
     }
     if (!missing.empty()) worker_.want(missing);
     return missing.empty();
@@ -96,21 +137,22 @@ void Pipelines::compile_meanwhile(const ComputeKey& key) {
     }
     vulkan::ComputePipeline pipeline(device_, *shader, key.second);
     const std::lock_guard lock(mutex_);
-    compute_.emplace(key, std::move(pipeline));
+    keep(compute_, key, std::move(pipeline));
 }
 
 const vulkan::GraphicsPipeline& Pipelines::graphics(const std::string& vertex, const std::string& fragment,
                                                     const std::string& key_text,
                                                     const vulkan::GraphicsSettings& settings) {
     const std::lock_guard lock(mutex_);
-    const auto key = std::make_pair(vertex + "+" + fragment + "+" + key_text, settings.constants);
-    auto found = graphics_.find(key);
-    if (found == graphics_.end()) {
-        vulkan::GraphicsPipeline pipeline(device_, find_shader(vertex), find_shader(fragment), settings);
-        found = graphics_.emplace(key, std::move(pipeline)).first;
-        compile_ms_ += found->second.compile_ms();
+    const ComputeKey key(vertex + "+" + fragment + "+" + key_text, settings.constants);
+    const auto found = graphics_.find(key);
+    if (found != graphics_.end()) {
+        found->second.last_picture = picture_;
+        return found->second.pipeline;
     }
-    return found->second;
+    vulkan::GraphicsPipeline pipeline(device_, find_shader(vertex), find_shader(fragment), settings);
+    compile_ms_ += pipeline.compile_ms();
+    return keep(graphics_, key, std::move(pipeline));
 }
 
 double Pipelines::take_compile_ms() {

@@ -93,6 +93,13 @@ void Prefilter::record(vulkan::Commands& commands, vulkan::Image& cubes, MapLook
     }
 }
 
+uint64_t Prefilter::scratch_bytes() const {
+    uint64_t bytes = 0;
+    for (const auto& [key, scratch] : scratches_)
+        bytes += scratch.samples.size_bytes() + scratch.texels.size_bytes();
+    return scratches_.size() > 1 ? bytes : 0;
+}
+
 std::vector<LevelTexels> Prefilter::levels_on_host() const {
     std::vector<LevelTexels> result;
     if (!last_ || !last_->texels.is_host_memory()) return result;

@@ -35,6 +35,13 @@ public:
     /// The levels from 1 on of the cube recorded last, once that is done and until the next call. Empty where
     /// the host does not read the device's memory as fast as its own.
     std::vector<LevelTexels> levels_on_host() const;
+    /// Of the room that is kept for the next maps; 0 where it is for maps of one size and kind.
+    uint64_t scratch_bytes() const;
+    /// Gives it back.
+    void free_scratches() {
+        scratches_.clear();
+        last_ = nullptr;
+    }
 
 private:
     struct Level {

@@ -230,6 +230,13 @@ void Pyramid::record(vulkan::Commands& commands, vulkan::Image& cubes, uint32_t 
     move_to(VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
 }
 
+uint64_t Pyramid::scratch_bytes() const {
+    uint64_t bytes = 0;
+    for (const auto& [key, scratch] : scratches_)
+        bytes += scratch.pairs.buffer().size_bytes();
+    return scratches_.size() > 1 ? bytes : 0;
+}
+
 std::vector<LevelTexels> Pyramid::levels_on_host() const {
     std::vector<LevelTexels> result;
     if (!last_ || !last_->pairs.buffer().is_host_memory()) return result;

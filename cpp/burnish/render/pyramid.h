@@ -53,7 +53,9 @@ public:
     /// All levels of the cubes recorded last, once that is done and until the next call. Empty where they
     /// were not done at once, or where the host does not read the device's memory as fast as its own.
     std::vector<LevelTexels> levels_on_host() const;
-    /// Gives back the room that is kept for the next maps.
+    /// Of the room that is kept for the next maps; 0 where it is for maps of one size.
+    uint64_t scratch_bytes() const;
+    /// Gives it back.
     void free_scratches() {
         scratches_.clear();
         last_ = nullptr;

@@ -25,8 +25,8 @@ Renderer::Renderer(std::shared_ptr<vulkan::Device> device, const RendererSetting
       lookup_(choose_lookup(device_->info().is_software, settings.lookup,
                             device_->limits().maxTexelBufferElements,
                             device_->limits().maxStorageBufferRange / sizeof(glm::uvec4), settings.measured)),
-      compilation_(settings.compilation), pipelines_(device_), map_tools_(device_), placeholders_(device_),
-      targets_(std::make_shared<TargetPool>(device_)) {}
+      compilation_(settings.compilation), pipelines_(device_, settings.pipeline_budget), map_tools_(device_),
+      placeholders_(device_), targets_(std::make_shared<TargetPool>(device_)) {}
 
 std::shared_ptr<Renderer> Renderer::open(std::shared_ptr<vulkan::Device> device,
                                          const RendererSettings& settings) {
@@ -39,7 +39,9 @@ std::shared_ptr<Renderer> Renderer::open(std::shared_ptr<vulkan::Device> device,
 
 std::unique_lock<std::mutex> Renderer::enter() {
     device_->require_usable(); // before the mutex, which a fork may have left locked
-    return std::unique_lock(mutex_);
+    std::unique_lock lock(mutex_);
+    pipelines_.begin_picture();
+    return lock;
 }
 
 void Renderer::forget() {

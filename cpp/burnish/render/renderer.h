@@ -52,6 +52,7 @@ struct RendererSettings {
     std::optional<MapLookup> lookup;           ///< none for what is best on the device
     std::optional<LookupMeasurement> measured; ///< that decides which is best on a CPU device
     Compilation compilation = Compilation::wait;
+    size_t pipeline_budget = DEFAULT_PIPELINE_BUDGET; ///< pipelines kept for later pictures, 1 or more
 };
 
 /// Keeps what later frames can use again: pipelines, scenes, maps, tables. One call at a time; calls from
@@ -71,6 +72,11 @@ public:
     void finish_compiling();
     /// Compiles nothing in the background any more, for when the process ends.
     void stop_compiling() { pipelines_.stop_compiling(); }
+
+    /// Pipelines kept for later pictures: those used longest ago go first.
+    size_t pipeline_budget() const { return pipelines_.budget(); }
+    void set_pipeline_budget(size_t budget) { pipelines_.set_budget(budget); }
+    size_t pipeline_count() const { return pipelines_.count(); }
 
     /// Throws std::invalid_argument for a scene or settings that make no sense, VulkanError if the device
     /// fails.
@@ -152,6 +158,8 @@ private:
     ShadePlan plan_shading(const Scene& scene, const PlanSettings& settings, ShadeTarget target);
     /// Makes room for one more.
     void forget_old_scenes();
+    /// Gives back maps of living environments, those used longest ago first, while all are large.
+    void forget_old_maps();
     GpuScene& prepare_scene(const Scene& scene);
     const vulkan::Buffer& prepare_alias(const std::vector<std::shared_ptr<const Environment>>& environments);
     ReferenceBuffers make_reference_buffers(const Scene& scene, const Plan& plan, uint64_t points);
@@ -173,7 +181,7 @@ private:
     DiffuseLights diffuse_;
     SunCache suns_;
     std::vector<CachedScene> scenes_; // the last used last
-    std::vector<CachedMaps> maps_;
+    std::vector<CachedMaps> maps_;    // the last used last
     std::shared_ptr<TargetPool> targets_;
     std::vector<std::weak_ptr<const Environment>> alias_environments_;
     vulkan::Buffer alias_;

@@ -8,6 +8,9 @@
 namespace burnish::render {
 namespace {
 
+/// Maps of environments that take turns stay on the device.
+constexpr uint64_t MOST_MAP_BYTES = uint64_t{1} << 30;
+
 std::string describe_maps(size_t count, const Environment& first) {
     const uint32_t size = first.face_size();
     return message(count, count == 1 ? " map" : " maps", " with faces of ", size, " x ", size, " texels");
@@ -46,9 +49,11 @@ std::vector<std::shared_ptr<EnvironmentMaps>> Renderer::prepare_maps(const Plan&
                               [](const auto& one, const auto& other) { return one.lock() == other; });
         });
         if (found != maps_.end()) {
-            result.push_back(found->maps);
+            std::rotate(found, found + 1, maps_.end());
+            result.push_back(maps_.back().maps);
             continue;
         }
+        forget_old_maps();
         const auto maps = needing_memory_for(describe_maps(environments.size(), *environments.front()), [&] {
             return std::make_shared<EnvironmentMaps>(map_tools_, environments, wanted);
         });
@@ -57,6 +62,16 @@ std::vector<std::shared_ptr<EnvironmentMaps>> Renderer::prepare_maps(const Plan&
         result.push_back(maps);
     }
     return result;
+}
+
+void Renderer::forget_old_maps() {
+    uint64_t bytes = 0;
+    size_t kept = 0;
+    for (; kept < maps_.size(); ++kept) {
+        bytes += maps_[maps_.size() - 1 - kept].maps->memory_bytes();
+        if (bytes > MOST_MAP_BYTES) break;
+    }
+    maps_.erase(maps_.begin(), maps_.end() - std::ptrdiff_t(kept));
 }
 
 std::vector<std::vector<float>> Renderer::pyramid(const std::shared_ptr<const Environment>& environment,

@@ -10,14 +10,25 @@ namespace burnish::render {
 namespace {
 
 constexpr VkFormat SAMPLE_FORMAT = VK_FORMAT_R32G32B32A32_SFLOAT;
+// A material that changes with every frame must not fill the memory: a cache that is full starts anew.
 constexpr uint64_t MOST_KEPT_VIEW_ENTRIES = 16'000'000; ///< 256 MB
+constexpr size_t MOST_ALBEDO_TABLES = 1000;        ///< 1 KB of a round lobe, up to 33 KB of a brushed one
+constexpr size_t MOST_VARYING_ALBEDO_TABLES = 50;  ///< 16 KB of round lobes
+
+template <typename Map>
+void make_room(Map& tables, size_t most) {
+    if (tables.size() >= most) tables.clear();
+}
 
 } // namespace
 
 const AlbedoTable& TableCache::albedo(glm::vec2 roughness, float alpha) {
     const std::array<float, 3> key = {roughness.x, roughness.y, alpha};
     auto found = albedo_.find(key);
-    if (found == albedo_.end()) found = albedo_.emplace(key, build_albedo_table(roughness, alpha)).first;
+    if (found == albedo_.end()) {
+        make_room(albedo_, MOST_ALBEDO_TABLES);
+        found = albedo_.emplace(key, build_albedo_table(roughness, alpha)).first;
+    }
     return found->second;
 }
 
@@ -30,7 +41,6 @@ SampleEntries TableCache::mixtures(uint32_t count) {
 SampleEntries TableCache::view_table(const MatchedLobe& lobe) {
     const auto found = view_tables_.find(lobe);
     if (found != view_tables_.end()) return found->second;
-    // A material that changes with every frame must not fill the memory.
     if (view_entries_ + view_table_entries(lobe) > MOST_KEPT_VIEW_ENTRIES) {
         view_tables_.clear();
         view_entries_ = 0;
@@ -61,8 +71,9 @@ std::shared_ptr<const SampleBuffer> TableCache::sample_buffer(const vulkan::Devi
 const std::vector<glm::vec2>& TableCache::varying_albedo(float alpha, bool is_brushed) {
     const std::pair key(alpha, is_brushed);
     auto found = varying_albedo_.find(key);
-    if (found == varying_albedo_.end())
-        found = varying_albedo_
+    if (found != varying_albedo_.end()) return found->second;
+    make_room(varying_albedo_, MOST_VARYING_ALBEDO_TABLES);
+    found = varying_albedo_
                     .emplace(key, is_brushed ? build_brushed_albedo_table(alpha)
                                              : build_varying_albedo_table(alpha))
                     .first;

@@ -22,6 +22,7 @@ struct SampleBuffer {
 
 class TableCache {
 public:
+    /// Until the next table of the kind is asked for, as references below.
     const AlbedoTable& albedo(glm::vec2 roughness, float alpha);
     /// Of all round lobes, or of all brushed ones.
     const std::vector<glm::vec2>& varying_albedo(float alpha, bool is_brushed);

@@ -117,7 +117,19 @@ def measure_cell(
     subject = cell.source.open()
     reference = _find_reference(cell, subject, store, step)
     step(1, "reference")
+    with subject.keeping_pipelines(len(samplers)):
+        return _measure_in_turn(cell, subject, reference, samplers, store, step, keeps_pictures)
 
+
+def _measure_in_turn(
+    cell: Cell,
+    subject: Subject,
+    reference: StoredPicture,
+    samplers: Sequence[str],
+    store: PictureStore,
+    step: Step,
+    keeps_pictures: bool,
+) -> Measured:
     made = {text: sampler_from_text(text) for text in samplers}
     shots: dict[str, Shot] = {}
     errors: dict[str, Errors] = {}

@@ -1,7 +1,8 @@
 """What a study draws again and again: a scene seen by a camera, or points of a surface."""
 
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import AbstractContextManager, contextmanager
 from dataclasses import dataclass, field
 from typing import Any, Protocol, TypeAlias
 
@@ -21,6 +22,9 @@ Sampler: TypeAlias = Any
 
 
 Progress: TypeAlias = Callable[[float, str], None]
+
+PIPELINES_A_SAMPLER = 40
+"""Most that one picture uses: a shade class each, the background, and the steps around them."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -84,6 +88,9 @@ class Subject(Protocol):
     def device_names(self) -> dict[str, Any]:
         """Give ``device``, ``driver``, ``is_software`` and ``lookup``."""
 
+    def keeping_pipelines(self, sampler_count: int) -> AbstractContextManager[None]:
+        """Have the device keep what so many samplers need while they take turns."""
+
     def describe(self) -> dict[str, Any]:
         """Name what is drawn, for people: scene, material, environment, filter, size."""
 
@@ -97,6 +104,16 @@ def _device_that_waits(device: _core.Device | None) -> _core.Device:
     if chosen.compile == "background":
         raise ValueError('device: expected one opened with compile="wait" or "shared", got "background"')
     return chosen
+
+
+@contextmanager
+def _keeping_pipelines(device: _core.Device, sampler_count: int) -> Iterator[None]:
+    before = device.pipeline_budget
+    device.pipeline_budget = max(before, PIPELINES_A_SAMPLER * sampler_count)
+    try:
+        yield
+    finally:
+        device.pipeline_budget = before
 
 
 def _device_names(device: _core.Device) -> dict[str, Any]:
@@ -159,6 +176,15 @@ class SceneSubject:
     def device_names(self) -> dict[str, Any]:
         """Give ``device``, ``driver``, ``is_software`` and ``lookup``."""
         return _device_names(self._device)
+
+    def keeping_pipelines(self, sampler_count: int) -> AbstractContextManager[None]:
+        """Have the device keep what so many samplers need while they take turns.
+
+        Parameters
+        ----------
+        sampler_count : int
+        """
+        return _keeping_pipelines(self._device, sampler_count)
 
     def describe(self) -> dict[str, Any]:
         """Name scene, materials, environment, filter and size."""
@@ -234,6 +260,15 @@ class PointsSubject:
     def device_names(self) -> dict[str, Any]:
         """Give ``device``, ``driver``, ``is_software`` and ``lookup``."""
         return _device_names(self._device)
+
+    def keeping_pipelines(self, sampler_count: int) -> AbstractContextManager[None]:
+        """Have the device keep what so many samplers need while they take turns.
+
+        Parameters
+        ----------
+        sampler_count : int
+        """
+        return _keeping_pipelines(self._device, sampler_count)
 
     def describe(self) -> dict[str, Any]:
         """Name material, environment and filter; the scene is the number of points."""
