@@ -116,14 +116,14 @@ void bind_texel_report(py::module_& m) {
     py::class_<TexelReport>(m, "TexelReport",
                             R"(What was wrong with the texels of an environment, and was put right.
 
-A texel counts once, under its worst fault in the order NaN, infinite, above half range, negative. ``str()`` gives one
-sentence, empty when nothing was wrong.)")
+A texel counts once, under its worst fault in the order NaN, infinite, negative. ``str()`` gives one sentence, empty when
+nothing was wrong.)")
         .def_readonly("negative", &TexelReport::negative, "Texels with a negative channel, set to 0.")
         .def_readonly("not_a_number", &TexelReport::not_a_number, "Texels with a NaN channel, set to 0.")
         .def_readonly("infinite", &TexelReport::infinite,
                       "Texels with an infinite channel, set to 65504, or to 0 if negative.")
         .def_readonly("above_half", &TexelReport::above_half,
-                      "Texels with a channel above 65504, clamped to it.")
+                      "Texels with a finite channel above 65504: no fault, `half_range` makes room for them.")
         .def_readonly("largest", &TexelReport::largest, "Largest finite value given, before any repair.")
         .def_property_readonly("count", &TexelReport::count, "Texels repaired, of all kinds.")
         .def("__str__", &TexelReport::sentence)
@@ -134,10 +134,32 @@ sentence, empty when nothing was wrong.)")
         });
 }
 
+void bind_half_range(py::module_& m) {
+    py::class_<HalfRange>(m, "HalfRange",
+                          R"(How half floats hold the texels of an environment, however bright or dim it is.
+
+They hold radiance / 2**exponent, which is exact: light times a power of two gives the picture times that. ``str()`` gives
+one sentence, empty when all of the map is held.)")
+        .def_readonly("exponent", &HalfRange::exponent, "0 where that suffices: 2**0 = 1.")
+        .def_readonly(
+            "faint_texels", &HalfRange::faint_texels,
+            "Texels with a channel over 2**30 times darker than the brightest, too faint to be held with "
+            "all bits beside it.")
+        .def_readonly("faint_sphere", &HalfRange::faint_sphere, "Share of the sphere that they cover, 0..1.")
+        .def_readonly("lost_light", &HalfRange::lost_light,
+                      "Share of the map's light that their rounding changes, 0..1.")
+        .def("__str__", &HalfRange::sentence)
+        .def("__repr__", [](const HalfRange& range) {
+            return message("HalfRange(exponent=", range.exponent, ", faint_texels=", range.faint_texels,
+                           ", faint_sphere=", range.faint_sphere, ", lost_light=", range.lost_light, ")");
+        });
+}
+
 } // namespace
 
 void bind_environment(py::module_& m) {
     bind_texel_report(m);
+    bind_half_range(m);
 
     py::class_<Environment, std::shared_ptr<Environment>>(
         m, "Environment", R"(Distant light: six square faces of linear radiance.
@@ -160,7 +182,7 @@ rotation : None, float or (3, 3) array
 Returns
 -------
 environment : Environment
-    Its `texel_report` counts texels that were negative, NaN, infinite or above the range of a half float.
+    Its `texel_report` counts texels that were negative, NaN or infinite.
 
 Raises
 ------
@@ -215,6 +237,8 @@ ValueError
                        "Shown in reports; the file's name for environments from files.")
         .def_readwrite("notes", &Environment::notes, "List of str: what was done to the map on its way here.")
         .def_property_readonly("texel_report", &Environment::texel_report, "TexelReport: what was repaired.")
+        .def_property_readonly("half_range", &Environment::half_range,
+                               "HalfRange: how half floats hold it on the device.")
         .def("__repr__", [](const Environment& environment) {
             return message("Environment(name='", environment.name, "', face_size=", environment.face_size(),
                            ", exposure=", environment.exposure,

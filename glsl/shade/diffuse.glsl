@@ -33,7 +33,7 @@ vec3 look_up_irradiance(vec3 n, uint map_index) {
 
 vec3 diffuse_light(MapRecord map, uint map_index, vec3 n) {
     if (HAS_HARMONICS) return irradiance_over_pi(map.irradiance, n);
-    return look_up_irradiance(n, map_index);
+    return look_up_irradiance(n, map_index) * map.env_from_world_y.w; // in the unit of the map's halves
 }
 
 #endif

@@ -16,7 +16,7 @@
 layout(constant_id = SPEC_IS_QUADRATURE) const bool IS_QUADRATURE = false;
 
 layout(std430, binding = BINDING_TEXEL_ALIAS) readonly buffer Alias { TexelAlias texel_alias[]; };
-// Per point: rgb: sum of the batches' means; a: sum of the squares of their luminances.
+// Per point: rgb: sum of the batches' means; a: sum of the squares of their luminances. In the unit of the brightest map.
 layout(std430, binding = BINDING_STATISTICS) buffer Statistics { vec4 statistics[]; };
 
 struct LobeView {
@@ -188,12 +188,13 @@ void main() {
     if (!point.is_mine) return;
     batch = stop_non_finite(batch, point.index, GUARD_REFERENCE);
     vec4 sum = push.batch == 0u ? vec4(0.0) : statistics[point.index];
-    float luminance = dot(batch, vec3(0.2126, 0.7152, 0.0722));
-    sum += vec4(batch, luminance * luminance);
+    float unit = map.env_from_world_x.w;
+    float luminance = unit * dot(batch, vec3(0.2126, 0.7152, 0.0722));
+    sum += vec4(unit * batch, luminance * luminance);
     statistics[point.index] = sum;
 
     // Quadrature batches are parts of one sum, progressive ones are estimates of it.
-    vec3 radiance = IS_QUADRATURE ? sum.rgb : sum.rgb / float(push.batch + 1u);
+    vec3 radiance = sum.rgb / (IS_QUADRATURE ? unit : unit * float(push.batch + 1u));
     radiance *= map.radiance_scale;
     if (HAS_EMISSIVE) radiance += point_emissive(point);
     store_radiance(point, stop_non_finite(radiance, point.index, GUARD_REFERENCE), 1.0);

@@ -92,7 +92,8 @@ vec3 point_diffuse(PointToShade point) {
 }
 
 vec3 point_emissive(PointToShade point) {
-    return HAS_VARYING ? imageLoad(varying_emissive, point.pixel).rgb : load_material(point.material).emissive.rgb;
+    vec4 emissive = load_material(point.material).emissive;
+    return HAS_VARYING ? imageLoad(varying_emissive, point.pixel).rgb * emissive.a : emissive.rgb;
 }
 
 // Of a varying material the clear coat is the last lobe and the base the first; where the base reflects nothing, the coat is both.

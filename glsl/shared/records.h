@@ -34,7 +34,7 @@ SHARED_SIZE(LobeRecord, 16 * LOBE_ROWS)
 // One material seen with one map.
 struct MaterialRecord {
     vec4 diffuse;  // rgb: kd
-    vec4 emissive; // rgb: radiance
+    vec4 emissive; // rgb: radiance; a: unit in which the wide G-buffer holds it, a power of two
     uint lobe_begin;
     uint lobe_count;
     uint map;         // index of its MapRecord
@@ -42,13 +42,14 @@ struct MaterialRecord {
 };
 SHARED_SIZE(MaterialRecord, 16 * MATERIAL_ROWS)
 
-// One environment map: where it lies and how it is turned. Columns of the matrix are rows of env_from_world.
+// One environment map: where it lies and how it is turned. Columns of the matrix are rows of env_from_world. All light in it
+// is in the unit that its halves have, a power of two of radiance (scene/half_range.h).
 struct MapRecord {
-    vec4 env_from_world_x; // xyz: environment x axis in world space
-    vec4 env_from_world_y;
+    vec4 env_from_world_x; // xyz: environment x axis in world space; w: its unit in that of the reference's statistics
+    vec4 env_from_world_y; // w: 1 over the unit
     vec4 env_from_world_z;
     vec4 irradiance[9]; // rgb: spherical-harmonic coefficients of irradiance / pi, in environment space
-    float radiance_scale; // 2^exposure
+    float radiance_scale; // 2^exposure times the unit
     uint layer;           // cube in its array
     uint face_size;       // texels
     uint alias_begin;     // first entry of its TexelAlias table
@@ -87,7 +88,7 @@ SHARED_SIZE(Counters, 32)
 // What the surface pass needs of a metallic-roughness material to map it at every pixel.
 struct SurfaceRecord {
     vec4 base_color;      // linear RGB, coverage
-    vec4 emissive;        // rgb: radiance; a: alpha cutoff
+    vec4 emissive;        // rgb: radiance in the material's unit (MaterialRecord); a: alpha cutoff
     vec4 specular;        // rgb: reflectance at normal incidence of a dielectric, from ior and specular colour; a: specular
     float metallic;
     float roughness;      // perceptual

@@ -5,6 +5,7 @@
 #include "burnish/render/texel_pairs.h"
 #include "burnish/vulkan/transfer.h"
 
+#include <cmath>
 #include <utility>
 
 #include <glm/gtc/packing.hpp>
@@ -87,6 +88,8 @@ EnvironmentMaps::EnvironmentMaps(MapTools& tools, EnvironmentSpan environments, 
         throw std::invalid_argument("filter: expected one, from whose pyramid to prefilter, got none");
     tools.free_surplus();
     const auto cube_count = static_cast<uint32_t>(environments.size());
+    for (const auto& environment : environments)
+        half_exponents_.push_back(environment->half_range().exponent);
     vulkan::ImageSettings settings;
     settings.format = VK_FORMAT_R16G16B16A16_SFLOAT;
     settings.width = settings.height = face_size;
@@ -148,6 +151,7 @@ std::vector<std::vector<float>> EnvironmentMaps::read_levels(uint32_t cube) {
     if (cube >= count()) {
         throw std::invalid_argument(message("cube: expected 0..", count() - 1, ", got ", cube));
     }
+    const double unit = std::ldexp(1.0, half_exponents_[cube]);
     std::vector<std::vector<float>> levels;
     for (uint32_t level = 0; level < level_count(); ++level) {
         vulkan::ImageRegion faces;
@@ -162,7 +166,7 @@ std::vector<std::vector<float>> EnvironmentMaps::read_levels(uint32_t cube) {
         radiance.reserve(3 * texel_count);
         for (const glm::u16vec4& texel : texels) {
             for (int channel = 0; channel < 3; ++channel)
-                radiance.push_back(glm::unpackHalf1x16(texel[channel]));
+                radiance.push_back(float(unit * glm::unpackHalf1x16(texel[channel])));
         }
         levels.push_back(std::move(radiance));
     }

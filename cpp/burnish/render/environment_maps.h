@@ -86,6 +86,7 @@ public:
 
 private:
     MapRoom room_;
+    std::vector<int> half_exponents_; // by cube
     std::vector<vulkan::PassTime> pass_times_;
 };
 

@@ -52,6 +52,12 @@ Report Renderer::start_report(const Scene& scene, const Plan& plan, const ShadeT
         for (const std::string& note : environment->notes)
             report.warnings.push_back("environment " + environment->name + ": " + note);
     }
+    // Of the maps that are read: without the suns that were taken out of them.
+    for (const auto& environment : plan.environments) {
+        const std::string sentence = environment->half_range().sentence();
+        if (!sentence.empty())
+            report.warnings.push_back("environment " + environment->name + ": " + sentence);
+    }
     return report;
 }
 

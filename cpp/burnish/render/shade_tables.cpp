@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <set>
 
 #include "burnish/error.h"
@@ -75,16 +76,33 @@ shared::MapRecord map_record(const Environment& environment, uint32_t layer,
     record.env_from_world_x = glm::vec4(environment.rotation[0], 0.0f);
     record.env_from_world_y = glm::vec4(environment.rotation[1], 0.0f);
     record.env_from_world_z = glm::vec4(environment.rotation[2], 0.0f);
+    // What a kernel adds up is in the unit of the map's halves.
+    const int unit = environment.half_range().exponent;
+    const double per_unit = std::ldexp(1.0, -unit);
     for (size_t k = 0; irradiance && k < irradiance->size(); ++k)
-        record.irradiance[k] = glm::vec4((*irradiance)[k], 0.0);
-    record.radiance_scale = std::exp2(environment.exposure);
+        record.irradiance[k] = glm::vec4(per_unit * (*irradiance)[k], 0.0);
+    record.env_from_world_y.w = float(per_unit);
+    record.radiance_scale =
+        std::min(std::ldexp(std::exp2(environment.exposure), unit), std::numeric_limits<float>::max());
     record.layer = layer;
     record.face_size = environment.face_size();
     for (size_t k = 0; k < suns.size(); ++k) {
         record.suns[2 * k] = glm::vec4(suns[k].direction, suns[k].variance);
-        record.suns[2 * k + 1] = glm::vec4(suns[k].flux, 0.0);
+        record.suns[2 * k + 1] = glm::vec4(per_unit * suns[k].flux, 0.0);
     }
     return record;
+}
+
+/// Errors of points that reflect different maps are compared in the unit of the brightest one: powers of two,
+/// so that sums keep their bits, and no smaller than adds anything.
+void set_statistics_scales(std::vector<shared::MapRecord>& maps) {
+    constexpr int LEAST_EXPONENT = -40;
+    const auto exponent = [](const shared::MapRecord& map) { return std::ilogb(map.radiance_scale); };
+    int brightest = std::numeric_limits<int>::min();
+    for (const shared::MapRecord& map : maps)
+        brightest = std::max(brightest, exponent(map));
+    for (shared::MapRecord& map : maps)
+        map.env_from_world_x.w = std::ldexp(1.0f, std::max(exponent(map) - brightest, LEAST_EXPONENT));
 }
 
 template <typename T>
@@ -95,6 +113,17 @@ vulkan::Buffer storage(const vulkan::DevicePointer& device, std::vector<T>& entr
 }
 
 } // namespace
+
+int emissive_exponent(const Material& material) {
+    constexpr double LEAST_TEXEL = 0x1p-12; // of 8 bits in sRGB
+    double least = 0.0, largest = 0.0;
+    for (int channel = 0; channel < 3; ++channel) {
+        const double value = material.emissive[channel];
+        if (value > 0.0 && (least == 0.0 || value < least)) least = value;
+        largest = std::max(largest, value);
+    }
+    return half_exponent(LEAST_TEXEL * least, largest);
+}
 
 ShadeTables make_shade_tables(const vulkan::DevicePointer& device, const Scene& scene, const Plan& plan,
                               TableCache& cache, DiffuseLights& diffuse) {
@@ -107,7 +136,8 @@ ShadeTables make_shade_tables(const vulkan::DevicePointer& device, const Scene& 
         const Material& material = scene.materials[instance.material];
         const ShadeTraits& traits = plan.classes[instance.shade_class].traits;
         const uint32_t face_size = plan.environments[instance.environment]->face_size();
-        materials.push_back({glm::vec4(material.diffuse, 0.0f), glm::vec4(material.emissive, 0.0f),
+        materials.push_back({glm::vec4(material.diffuse, 0.0f),
+                             glm::vec4(material.emissive, std::ldexp(1.0f, emissive_exponent(material))),
                              uint32_t(lobes.size()), traits.lobe_count, instance.environment,
                              instance.shade_class});
         for (uint32_t which = 0; which < traits.lobe_count; ++which) {
@@ -157,6 +187,8 @@ ShadeTables make_shade_tables(const vulkan::DevicePointer& device, const Scene& 
             const uint32_t k = set.environments[layer];
             maps[k] = map_record(*plan.environments[k], layer, lights[k].harmonics, plan.suns[k]);
         }
+
+    set_statistics_scales(maps);
 
     uint32_t alias_begin = 0;
     for (shared::MapRecord& map : maps) {

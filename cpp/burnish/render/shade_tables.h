@@ -29,6 +29,9 @@ struct ShadeTables {
     std::vector<vulkan::PassTime> pass_times; ///< "irradiance", as the host sees it, where it was made
 };
 
+/// Of the unit in which the wide G-buffer's halves hold a material's emission where a texture varies it.
+int emissive_exponent(const Material& material);
+
 ShadeTables make_shade_tables(const vulkan::DevicePointer& device, const Scene& scene, const Plan& plan,
                               TableCache& cache, DiffuseLights& diffuse);
 

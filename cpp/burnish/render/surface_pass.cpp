@@ -1,8 +1,10 @@
 #include "burnish/render/surface_pass.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "burnish/plan/material_traits.h"
+#include "burnish/render/shade_tables.h"
 #include "burnish/scene/texture_kinds.h"
 #include "burnish/vulkan/device.h"
 #include "burnish/vulkan/transfer.h"
@@ -40,7 +42,8 @@ shared::SurfaceRecord surface_record(const Material& material, uint32_t texture_
     const float reflectance = (source.ior - 1.0f) / (source.ior + 1.0f);
     shared::SurfaceRecord record{};
     record.base_color = source.base_color;
-    record.emissive = glm::vec4(material.emissive, coverage_cutoff(material));
+    record.emissive = glm::vec4(std::ldexp(1.0f, -emissive_exponent(material)) * material.emissive,
+                                coverage_cutoff(material));
     record.specular = glm::vec4(reflectance * reflectance * source.specular_color, 1.0f) *
                       glm::vec4(1.0f, 1.0f, 1.0f, source.specular);
     record.metallic = source.metallic;

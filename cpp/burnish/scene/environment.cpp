@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <limits>
 #include <span>
 #include <stdexcept>
 #include <utility>
@@ -22,16 +21,10 @@ void append_count(std::string& text, uint64_t count, const char* fault, const ch
     }
 }
 
-void clean_block(std::span<float> radiance, float upper_limit, TexelReport& report) {
+void clean_block(std::span<float> radiance, TexelReport& report) {
     for (size_t texel = 0; texel + 3 <= radiance.size(); texel += 3) {
-        bool is_good = true, has_nan = false, has_infinity = false, has_above = false;
+        bool has_nan = false, has_infinity = false, has_negative = false, has_above = false;
         for (float& value : radiance.subspan(texel, 3)) {
-            if (value >= 0.0f && value <= upper_limit) {
-                value += 0.0f; // -0 has bits that no half is made from
-                report.largest = std::max(report.largest, value);
-                continue;
-            }
-            is_good = false;
             if (std::isnan(value)) {
                 has_nan = true;
                 value = 0.0f;
@@ -40,16 +33,18 @@ void clean_block(std::span<float> radiance, float upper_limit, TexelReport& repo
                 value = value > 0.0f ? HALF_MAX : 0.0f;
             } else {
                 report.largest = std::max(report.largest, value);
-                has_above = has_above || value > upper_limit;
-                value = std::clamp(value, 0.0f, upper_limit);
+                has_above = has_above || value > HALF_MAX;
+                has_negative = has_negative || value < 0.0f;
+                value = std::max(value, 0.0f) + 0.0f; // -0 has bits that no half is made from
             }
         }
-        if (is_good) continue;
-        uint64_t& count = has_nan        ? report.not_a_number
-                          : has_infinity ? report.infinite
-                          : has_above    ? report.above_half
-                                         : report.negative;
-        ++count;
+        if (has_above) ++report.above_half;
+        if (has_nan)
+            ++report.not_a_number;
+        else if (has_infinity)
+            ++report.infinite;
+        else if (has_negative)
+            ++report.negative;
     }
 }
 
@@ -59,7 +54,6 @@ std::string TexelReport::sentence() const {
     std::string faults;
     append_count(faults, not_a_number, "not a number", "set to 0");
     append_count(faults, infinite, "infinite", "set to 65504, or 0 if negative");
-    append_count(faults, above_half, "above half range", "clamped to 65504");
     append_count(faults, negative, "negative", "set to 0");
     if (faults.empty()) {
         return {};
@@ -81,11 +75,11 @@ void require_face_size(uint32_t face_size) {
                                         face_size, " (nearest: ", nearest, ")"));
 }
 
-TexelReport clean_texels(std::vector<float>& radiance, float upper_limit) {
-    // Good values, in [+0, upper_limit], are those whose bits as an integer are at most the limit's: the
-    // largest of a block tells whether all of it, as nearly always, can pass without further tests.
+TexelReport clean_texels(std::vector<float>& radiance) {
+    // Values in [+0, HALF_MAX] are those whose bits as an integer are at most that one's: the largest of a
+    // block tells whether all of it, as nearly always, can pass without further tests.
     constexpr size_t BLOCK = 3 * 512;
-    const uint32_t limit_bits = std::bit_cast<uint32_t>(upper_limit);
+    const uint32_t limit_bits = std::bit_cast<uint32_t>(HALF_MAX);
     TexelReport report;
     for (size_t begin = 0; begin < radiance.size(); begin += BLOCK) {
         const std::span<float> block =
@@ -96,7 +90,7 @@ TexelReport clean_texels(std::vector<float>& radiance, float upper_limit) {
         if (most_bits <= limit_bits)
             report.largest = std::max(report.largest, std::bit_cast<float>(most_bits));
         else
-            clean_block(block, upper_limit, report);
+            clean_block(block, report);
     }
     return report;
 }
@@ -111,7 +105,8 @@ Environment Environment::from_faces(uint32_t face_size, std::vector<float> radia
     Environment environment;
     environment.face_size_ = face_size;
     environment.radiance_ = std::move(radiance);
-    environment.texel_report_ = clean_texels(environment.radiance_, HALF_MAX);
+    environment.texel_report_ = clean_texels(environment.radiance_);
+    environment.half_range_ = half_range_of(face_size, environment.radiance_);
     return environment;
 }
 
@@ -128,9 +123,8 @@ Environment Environment::from_lat_long(uint32_t height, uint32_t width, const st
         throw std::invalid_argument(message("radiance: expected ", expected, " floats for ", height, " x ",
                                             width, " x 3, got ", radiance.size()));
     }
-    // Values above half range stay until they are averaged: the mean over a cube texel may well fit.
     std::vector<float> cleaned = radiance;
-    const TexelReport source = clean_texels(cleaned, std::numeric_limits<float>::max());
+    const TexelReport source = clean_texels(cleaned);
     if (grid == LatLongGrid::samples) { // one direction, two values: both count half
         for (uint32_t row = 0; row < height; ++row) {
             float* const first = cleaned.data() + size_t{3} * width * row;
@@ -160,9 +154,10 @@ std::vector<uint16_t> Environment::half_rgba() const {
 void Environment::half_rgba(uint32_t row, std::span<uint16_t> half) const {
     constexpr uint16_t HALF_ONE = 0x3C00;
     const float* rgb = radiance_.data() + size_t{3} * face_size_ * row;
+    const float scale = std::ldexp(1.0f, -half_range_.exponent);
     for (size_t texel = 0; texel < face_size_; ++texel) {
         for (size_t channel = 0; channel < 3; ++channel)
-            half[4 * texel + channel] = half_bits(rgb[3 * texel + channel]);
+            half[4 * texel + channel] = half_bits(scale * rgb[3 * texel + channel]);
         half[4 * texel + 3] = HALF_ONE;
     }
 }

@@ -12,22 +12,23 @@
 
 #include <glm/glm.hpp>
 
+#include "burnish/scene/half_range.h"
+
 namespace burnish {
 
 constexpr float HALF_MAX = 65504.0f;
 constexpr uint32_t MAX_FACE_SIZE = 2048;
 
 /// What was wrong with the texels given, and was put right. A texel counts once, under its worst fault in the
-/// order NaN, infinite, above half, negative; every faulty channel is repaired, the others are left as they
-/// are.
+/// order NaN, infinite, negative; every faulty channel is repaired, the others are left as they are.
 struct TexelReport {
     uint64_t negative = 0;     ///< set to 0
     uint64_t not_a_number = 0; ///< set to 0
     uint64_t infinite = 0;     ///< +inf set to HALF_MAX, -inf to 0
-    uint64_t above_half = 0;   ///< finite, above HALF_MAX: clamped to it
+    uint64_t above_half = 0;   ///< finite, above HALF_MAX: no fault, the map's HalfRange makes room
     float largest = 0;         ///< largest finite value given, 0 if none is positive
 
-    uint64_t count() const { return negative + not_a_number + infinite + above_half; }
+    uint64_t count() const { return negative + not_a_number + infinite; }
     /// One sentence for the report, empty when nothing was wrong.
     std::string sentence() const;
 };
@@ -59,7 +60,10 @@ public:
     const std::vector<float>& radiance() const { return radiance_; }
     const TexelReport& texel_report() const { return texel_report_; }
 
-    /// The faces as half floats, alpha 1, for upload: rounded to nearest even, nothing else. 6 N N 4 values.
+    /// How halves hold the faces.
+    const HalfRange& half_range() const { return half_range_; }
+    /// The faces over 2^half_range().exponent as half floats, alpha 1, for upload: rounded to nearest even,
+    /// nothing else. 6 N N 4 values.
     std::vector<uint16_t> half_rgba() const;
     /// The same of one row of all rows of all faces, 4 N values.
     void half_rgba(uint32_t row, std::span<uint16_t> half) const;
@@ -77,6 +81,7 @@ private:
     uint32_t face_size_ = 0;
     std::vector<float> radiance_;
     TexelReport texel_report_;
+    HalfRange half_range_;
 };
 
 /// Throws std::invalid_argument naming the nearest sizes unless face_size is a power of two

@@ -8,9 +8,8 @@
 
 namespace burnish {
 
-/// Puts NaN, infinite and negative values right and clamps to `upper_limit` (>= HALF_MAX); `radiance` has
-/// three channels.
-TexelReport clean_texels(std::vector<float>& radiance, float upper_limit);
+/// Puts NaN, infinite and negative values right; `radiance` has three channels.
+TexelReport clean_texels(std::vector<float>& radiance);
 
 /// The faces of Environment::from_lat_long, from clean texels.
 std::vector<float> cube_from_lat_long(uint32_t height, uint32_t width, const std::vector<float>& radiance,

@@ -14,7 +14,7 @@ from burnish.hardcases.inputs import LIGHTS, Float32, Points
 from burnish.oracle.cube_map import PaddedCube, pad_cube
 from burnish.oracle.matched import MatchedMap
 from burnish.oracle.prefiltered import shade_prefiltered
-from burnish.oracle.pyramid import round_to_half
+from burnish.oracle.pyramid import hold_in_halves
 from burnish.oracle.reference import shade_reference
 from burnish.oracle.shading import conserving_scale, shade_lobe, shade_matched_lobes
 from burnish.oracle.sun_split import split_suns
@@ -108,7 +108,7 @@ class Bench:
 
     def _prepare(self, environment: _core.Environment, kind: str) -> "PaddedCube | MatchedMap | Array":
         if kind == "Reference":
-            return round_to_half(environment.faces)
+            return hold_in_halves(environment.faces)
         if kind == "Prefiltered":
             levels = _core.environment_prefiltered(self.device, environment, "gauss6")
             return pad_cube([level for _, level in levels])

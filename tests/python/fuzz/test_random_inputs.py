@@ -39,7 +39,6 @@ SAMPLERS = {
     "matched": burnish.Matched(14),
     "prefiltered": burnish.Prefiltered(),
 }
-HALF_MAX = 65504.0
 
 
 @pytest.fixture(scope="module")
@@ -97,13 +96,13 @@ def test_shade_equals_the_oracle(device, smooth16, name, material, seed):
 def test_any_texels_are_cleaned_and_blurred_within_their_range(device, texels, filter):
     environment = burnish.Environment.from_faces(texels)
     cleaned = environment.faces
-    assert np.isfinite(cleaned).all() and (cleaned >= 0).all() and (cleaned <= HALF_MAX).all()
-    is_good = np.isfinite(texels) & (texels >= 0) & (texels <= HALF_MAX)
+    assert np.isfinite(cleaned).all() and (cleaned >= 0).all()
+    is_good = np.isfinite(texels) & (texels >= 0)
     np.testing.assert_array_equal(cleaned[is_good], texels[is_good])
     for level in environment.pyramid(filter, device=device):
         assert np.isfinite(level).all() and (level >= 0).all()
-        # Half floats: 11 bits, and 2^-24 where they end.
-        assert level.max() <= cleaned.max() * (1 + 2.0**-10) + 2.0**-24
+        # Half floats have 11 bits.
+        assert level.max() <= cleaned.max() * (1 + 2.0**-10)
 
 
 @fuzzed

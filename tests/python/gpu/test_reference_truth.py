@@ -5,7 +5,7 @@ import pytest
 
 import burnish
 from burnish import environments
-from burnish.oracle.pyramid import round_to_half
+from burnish.oracle.pyramid import hold_in_halves
 from burnish.oracle.reference import shade_reference
 from burnish.oracle.shading import shade as oracle_shade
 from engine_support import random_points
@@ -25,7 +25,7 @@ def points():
 
 def stored(environment):
     """Level 0 as the device holds it, without asking the device."""
-    return round_to_half(environment.faces)
+    return hold_in_halves(environment.faces)
 
 
 @pytest.mark.parametrize("lobe", [ROUND, BRUSHED], ids=["round", "brushed"])

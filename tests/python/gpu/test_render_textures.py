@@ -147,3 +147,20 @@ def test_textured_and_plain_pictures_agree_where_the_texture_is_flat(device, smo
         expected, _ = texel_colors(device, plain, smooth64, sampler)
         got, _ = texel_colors(device, other, smooth64, sampler)
         assert_close(device, got, expected)
+
+
+@pytest.mark.parametrize("power", [-40, -20, 20, 40])
+def test_emission_of_a_texture_scales_with_its_factor(tmp_path, device, rng, power):
+    """The wide G-buffer holds it in half floats, over a power of two of the material's own."""
+    texels = rng.uniform(0.01, 1, (TEXELS, TEXELS, 3))
+    factor = [0.75, 0.5, 2.0**-6]
+
+    def picture(strength):
+        extensions = {"KHR_materials_emissive_strength": {"emissiveStrength": strength}}
+        emission = {"emissiveFactor": factor, "emissiveTexture": {"index": 0}, "extensions": extensions}
+        scene = write_quad(tmp_path / "quad.gltf", emission, [texels], extensions)
+        return texel_colors(device, scene, burnish.environments.uniform(0.0), burnish.Prefiltered())[0]
+
+    expected = picture(1.0)
+    assert (expected > 0).all()
+    np.testing.assert_array_equal(np.ldexp(picture(2.0**power), -power), expected)

@@ -7,11 +7,18 @@ import pytest
 import burnish
 from burnish import Environment, FileError, cube_layout, environments, images
 from burnish.environment_io import environment_from_file
+from burnish.oracle.pyramid import half_exponent, hold_in_halves
 
 
 def energy(faces):
     """Integral over the sphere, per channel."""
     return (faces * cube_layout.cube_solid_angles(faces.shape[1])[None, :, :, None]).sum(axis=(0, 1, 2))
+
+
+def lat_long_energy(image):
+    height, width = image.shape[:2]
+    rows = np.sin(np.linspace(np.pi / 2, -np.pi / 2, height + 1))
+    return (image * (2 * np.pi / width * -np.diff(rows))[:, None, None]).sum(axis=(0, 1))
 
 
 def coloured_faces(size=8):
@@ -83,27 +90,60 @@ def test_faulty_texels_are_counted():
     faces[1, 0, 0, 1] = np.inf
     faces[2, 0, 0, 1] = -2.0
     faces[3, :2, 0] = 1e6
-    report = Environment.from_faces(faces).texel_report
+    environment = Environment.from_faces(faces)
+    report = environment.texel_report
     assert (report.not_a_number, report.infinite, report.negative, report.above_half) == (1, 1, 1, 2)
-    assert report.count == 5
+    assert report.count == 3
     assert report.largest == 1e6
-    assert "2 above half range (clamped to 65504)" in str(report)
+    assert "half range" not in str(report)
+    assert environment.faces[3, 0, 0, 0] == 1e6
 
 
 def test_lat_long_sun_keeps_its_energy():
     image = np.full((64, 128, 3), 0.1, np.float32)
     image[13, 0] = 40000.0
-    rows = np.sin(np.linspace(np.pi / 2, -np.pi / 2, 65))
-    expected = (image * (2 * np.pi / 128 * -np.diff(rows))[:, None, None]).sum(axis=(0, 1))
+    expected = lat_long_energy(image)
     for size in (1, 16, 256):
         np.testing.assert_allclose(energy(Environment.from_lat_long(image, size).faces), expected, rtol=1e-5)
 
 
-def test_sun_above_half_range_is_kept_where_its_mean_fits():
+def test_sun_above_half_range_is_kept():
     image = np.zeros((128, 256, 3), np.float32)
     image[60, 60] = 1e6
-    assert Environment.from_lat_long(image, 8).texel_report.count == 0
-    assert Environment.from_lat_long(image, 512).texel_report.above_half > 0
+    for face_size in (8, 512):
+        environment = Environment.from_lat_long(image, face_size)
+        assert environment.texel_report.count == 0
+        np.testing.assert_allclose(energy(environment.faces), lat_long_energy(image), rtol=1e-5)
+    assert environment.texel_report.above_half > 0
+
+
+def test_halves_hold_maps_of_any_brightness(rng):
+    """The exponent is the twin's, and changes with the map's by as much: texels keep their bits."""
+    faces = np.float32(2.0 ** rng.uniform(-12, 12, (6, 8, 8, 3)))
+    faces[0, 0, 0] = 0.0
+    for spread in (1.0, 2.0**-8, 2.0**-60):  # of one face: held, too faint, and black beside the others
+        faces[1] *= np.float32(spread)
+        for power in (-90, -40, -20, -10, 0, 4, 10, 40, 90):
+            scaled = np.ldexp(faces, power)
+            found = Environment.from_faces(scaled).half_range
+            assert found.exponent == half_exponent(scaled), (spread, power)
+            assert (found.faint_texels > 0) == (spread == 2.0**-8)
+            held = hold_in_halves(scaled)
+            np.testing.assert_array_equal(np.ldexp(held, -power)[2:], hold_in_halves(faces)[2:])
+    assert Environment.from_faces(np.zeros((6, 1, 1, 3), np.float32)).half_range.exponent == 0
+
+
+def test_light_that_halves_lose_is_counted():
+    faces = np.ones((6, 2, 2, 3), np.float32)
+    faces[0] = 2.0**20  # halves hold multiples of 2^-20 beside it, over 2^5 of 2^-19
+    faces[1] = np.float32(1.5 * 2.0**-19)
+    found = Environment.from_faces(faces).half_range
+    assert (found.exponent, found.faint_texels) == (5, 4)
+    assert found.faint_sphere == pytest.approx(1 / 6)
+    light = 2.0**20 + 4 + 1.5 * 2.0**-19
+    assert found.lost_light == pytest.approx(0.5 * 2.0**-19 / light)
+    assert str(found).startswith("4 texels, 16.6667 % of the sphere, are over 2^30 times darker")
+    assert str(Environment.from_faces(np.ones((6, 1, 1, 3), np.float32)).half_range) == ""
 
 
 @pytest.mark.parametrize("name", ["BrightRingsNanInf.exr", "bad.exr"])
