@@ -12,6 +12,8 @@ from burnish._samplers import Matched as Matched
 from burnish._samplers import Prefiltered as Prefiltered
 from burnish._samplers import Reference as Reference
 from burnish._samplers import Regular as Regular
+from burnish._texels import HalfRange as HalfRange
+from burnish._texels import TexelReport as TexelReport
 from burnish._timings import prefilter_times as prefilter_times
 from burnish._timings import pyramid_times as pyramid_times
 from burnish._timings import time_blits as time_blits
@@ -280,30 +282,6 @@ class Scene:
         face_size: int = 256,
         device: Device | None = None,
     ) -> Environment: ...
-
-class TexelReport:
-    @property
-    def negative(self) -> int: ...
-    @property
-    def not_a_number(self) -> int: ...
-    @property
-    def infinite(self) -> int: ...
-    @property
-    def above_half(self) -> int: ...
-    @property
-    def largest(self) -> float: ...
-    @property
-    def count(self) -> int: ...
-
-class HalfRange:
-    @property
-    def exponent(self) -> int: ...
-    @property
-    def faint_texels(self) -> int: ...
-    @property
-    def faint_sphere(self) -> float: ...
-    @property
-    def lost_light(self) -> float: ...
 
 class Environment:
     name: str

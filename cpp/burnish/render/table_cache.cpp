@@ -12,8 +12,8 @@ namespace {
 constexpr VkFormat SAMPLE_FORMAT = VK_FORMAT_R32G32B32A32_SFLOAT;
 // A material that changes with every frame must not fill the memory: a cache that is full starts anew.
 constexpr uint64_t MOST_KEPT_VIEW_ENTRIES = 16'000'000; ///< 256 MB
-constexpr size_t MOST_ALBEDO_TABLES = 1000;        ///< 1 KB of a round lobe, up to 33 KB of a brushed one
-constexpr size_t MOST_VARYING_ALBEDO_TABLES = 50;  ///< 16 KB of round lobes
+constexpr size_t MOST_ALBEDO_TABLES = 1000;       ///< 1 KB of a round lobe, up to 33 KB of a brushed one
+constexpr size_t MOST_VARYING_ALBEDO_TABLES = 50; ///< 16 KB of round lobes
 
 template <typename Map>
 void make_room(Map& tables, size_t most) {
@@ -73,10 +73,10 @@ const std::vector<glm::vec2>& TableCache::varying_albedo(float alpha, bool is_br
     auto found = varying_albedo_.find(key);
     if (found != varying_albedo_.end()) return found->second;
     make_room(varying_albedo_, MOST_VARYING_ALBEDO_TABLES);
-    found = varying_albedo_
-                    .emplace(key, is_brushed ? build_brushed_albedo_table(alpha)
-                                             : build_varying_albedo_table(alpha))
-                    .first;
+    found =
+        varying_albedo_
+            .emplace(key, is_brushed ? build_brushed_albedo_table(alpha) : build_varying_albedo_table(alpha))
+            .first;
     return found->second;
 }
 
