@@ -5,12 +5,15 @@ import os
 import warnings
 from collections.abc import Callable
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
-from burnish import _core
 from burnish.report import Report
+
+if TYPE_CHECKING:  # the compiled part may be missing where this module is imported
+    from burnish._core import Camera
 
 FloatArray = NDArray[np.float32]
 
@@ -37,7 +40,7 @@ def relative_rmse(color: FloatArray, reference: FloatArray) -> float:
     return float(np.sqrt(np.sum((np.asarray(color, np.float64) - truth) ** 2) / energy))
 
 
-def is_same_view(one: _core.Camera, other: _core.Camera) -> bool:
+def is_same_view(one: "Camera", other: "Camera") -> bool:
     """Whether two cameras see the same picture, to float32's rounding; near and far planes and names aside.
 
     Parameters
@@ -55,7 +58,7 @@ def is_same_view(one: _core.Camera, other: _core.Camera) -> bool:
 
 
 def require_comparable(
-    reference: "Frame", size: tuple[int, int], camera: _core.Camera | None, spp: int, stacklevel: int = 3
+    reference: "Frame", size: tuple[int, int], camera: "Camera | None", spp: int, stacklevel: int = 3
 ) -> None:
     """Refuse a reference that shows something else, and warn of one that averages more or fewer pictures.
 
@@ -128,7 +131,7 @@ class Frame:
         report: Report,
         error_estimate: FloatArray | None = None,
         display: NDArray[np.uint8] | None = None,
-        camera: _core.Camera | None = None,
+        camera: "Camera | None" = None,
     ) -> None:
         self._color = color
         self._alpha = alpha

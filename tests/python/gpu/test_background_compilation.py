@@ -215,7 +215,8 @@ SETUP = """
     def draw(device, roughness):
         scene = burnish.Scene.sphere(burnish.Material(lobes=[burnish.KurtLobe(roughness=roughness)]))
         scene.environment = spots(face_size=32)
-        return burnish.render(scene, size=(24, 32), device=device).report.classes[0]["table"]
+        frame = burnish.render(scene, size=(24, 32), sampler=burnish.Regular(), device=device)
+        return frame.report.classes[0]["table"]
 
     device = burnish.Device(name=sys.argv[1], compile="background")
     for k in range(20):
