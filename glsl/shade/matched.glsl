@@ -18,7 +18,7 @@ struct MixtureView {
     vec3 h, p;
     float oh, h2, p2;    // o.h, |h|^2, |p|^2
     float linear;        // b^2/c: a component's variance over s^2 (o.h) cos_h^3
-    float share;         // 4^S of level 1's for a variance of 1: see spherical_level
+    float share;         // of level 1's variance, for a variance of 1: see spherical_level
     int row;             // its first entry in the table
     vec2 fresnel;        // F = x + y (1 - o.h)^5 over all channels: weighs directions within a component
 };
@@ -66,7 +66,6 @@ LobeAxes lobe_axes(vec3 local_o, vec2 roughness) {
 }
 
 MixtureView view_mixture(LobeView v, uint table_begin, float variance_share, vec3 specular, vec3 grazing) {
-    float widest = max(v.roughness.x, v.roughness.y);
     LobeAxes axes = lobe_axes(v.local_o, v.roughness);
 
     MixtureView view;
@@ -85,9 +84,7 @@ MixtureView view_mixture(LobeView v, uint table_begin, float variance_share, vec
     view.p2 = dot(view.p, view.p);
     view.linear = axes.minor * axes.minor / axes.foreshortening;
     view.h2 = dot(view.h, view.h);
-    float t = min(axes.rho / float(SAMPLE_COUNT), 3.0);
-    float shift = -0.08 + 0.22 * t + 0.3 * max(t - 1.0, 0.0) + 0.36 * clamp(widest - 0.15, 0.0, 0.45);
-    view.share = variance_share * exp2(2.0 * shift);
+    view.share = variance_share;
     float node = log2(axes.rho) * (float(MATCHED_ROWS - 1u) / MATCHED_LOG2_LARGEST_RHO) + 0.5;
     view.row = int(table_begin) + int((SAMPLE_COUNT + 1u) / 2u) * int(node < float(MATCHED_ROWS - 1u) ? node : float(MATCHED_ROWS - 1u));
     // Where nothing is reflected, some direction must still come out.

@@ -7,8 +7,8 @@
 
 layout(constant_id = SPEC_SUN_COUNT) const uint SUN_COUNT = 0u;
 
-// Flux times f cos_i of a lobe that is wider by the sun: a variance v of directions is v/(4 o.h) of half-vectors and v/(4 (o.h) hz^3)
-// of their slopes, geometric means of two axes each; the lobe's slopes have m^2/2.
+// Flux times f cos_i of a lobe that is wider by the sun. A variance v of directions is v/4 of half-vectors in the plane of view and light,
+// v/(4 (o.h)^2) across it: at grazing views much more. The lobe's slopes have m^2/2; C is twice the covariance of both.
 vec3 shade_sun(LobeView v, vec4 sun, vec3 flux, vec3 specular, vec3 grazing) {
     vec3 omega_i = sun.xyz * v.frame;
     vec3 h = omega_i + v.local_o;
@@ -16,8 +16,21 @@ vec3 shade_sun(LobeView v, vec4 sun, vec3 flux, vec3 specular, vec3 grazing) {
     bool is_seen = omega_i.z > 0.0 && h.z > 1e-3 * sqrt(length2) && length2 > 1e-12;
     h = is_seen ? h * inversesqrt(length2) : vec3(0.0, 0.0, 1.0);
     float cos_d = max(dot(v.local_o, h), 1e-4);
-    vec2 wider = sqrt(v.roughness * v.roughness + sun.w / (2.0 * cos_d * h.z * h.z * h.z));
-    float value = kurt_d(h, wider) / (4.0 * cos_d) * cos_i_power(omega_i.z, v.alpha) * v.cos_o_power;
+    vec3 across = cross(v.local_o, h);
+    // Toward the light any two directions will do.
+    across = normalize(dot(across, across) > 1e-8 ? across : vec3(0.0, h.z, -h.y));
+    vec3 along = cross(across, h);
+    float scale = sqrt(0.5 * sun.w) / h.z;
+    vec2 slope = h.xy / h.z;
+    vec2 s1 = scale * (along.xy - slope * along.z), s2 = (scale / cos_d) * (across.xy - slope * across.z);
+    vec2 m2 = v.roughness * v.roughness, wider = s1 * s1 + s2 * s2;
+    float off = s1.x * s1.y + s2.x * s2.y, turn = s1.x * s2.y - s1.y * s2.x;
+    float determinant = m2.x * m2.y + m2.x * wider.y + m2.y * wider.x + turn * turn;
+    vec2 c = m2 + wider;
+    float exponent = (c.y * slope.x * slope.x - 2.0 * off * slope.x * slope.y + c.x * slope.y * slope.y) / determinant;
+    float hz2 = h.z * h.z;
+    float density = exp(-exponent) / (PI * sqrt(determinant) * hz2 * hz2);
+    float value = density / (4.0 * cos_d) * cos_i_power(omega_i.z, v.alpha) * v.cos_o_power;
     vec3 fresnel = HAS_FRESNEL ? specular + grazing * schlick_weight(cos_d) : specular;
     return is_seen ? value * fresnel * flux : vec3(0.0);
 }

@@ -28,11 +28,11 @@ SHARED_CONST uint ALBEDO_ALONG_NODES = 32u;
 SHARED_CONST uint ALBEDO_ACROSS_NODES = 12u;
 SHARED_CONST uint ALBEDO_CORRELATION_NODES = 6u;
 
-// The matched table is fitted at MATCHED_NODES aspects of the lobe on the map, evenly in their log up to 34, and read from
+// The matched table is fitted at MATCHED_NODES aspects of the lobe on the map, evenly in their log up to 100, and read from
 // MATCHED_ROWS: so many that the nearest will do.
-SHARED_CONST uint MATCHED_NODES = 40u;
+SHARED_CONST uint MATCHED_NODES = 52u;
 SHARED_CONST uint MATCHED_ROWS = 1024u;
-SHARED_CONST float MATCHED_LOG2_LARGEST_RHO = 5.0874628f;
+SHARED_CONST float MATCHED_LOG2_LARGEST_RHO = 6.6438562f;
 // Tables of placed samples hold MATCHED_ROWS views of a round lobe; of a brushed one, up to an aspect, a grid of views with so many
 // nodes from the normal to the horizon.
 SHARED_CONST uint MATCHED_VIEW_NODES = 128u;

@@ -59,13 +59,6 @@ struct Mean {
     glm::dvec3 direction{0.0};
 };
 
-/// Levels that a lookup gains where centres lie far apart against their widths (maths: section 6).
-double level_shift(const MatchedLobe& lobe, double rho) {
-    const double t = std::min(3.0, rho / lobe.samples);
-    const double wide = std::clamp(std::max(lobe.roughness_x, lobe.roughness_y) - 0.15f, 0.0f, 0.45f);
-    return -0.08 + 0.22 * t + 0.3 * std::max(0.0, t - 1.0) + 0.36 * wide;
-}
-
 class Row {
 public:
     /// `e`: the plane of view in the lobe's axes.
@@ -73,7 +66,6 @@ public:
         const double sine = std::sqrt(1.0 - cos_o * cos_o);
         omega_o_ = glm::dvec3(sine * e, cos_o);
         map_ = map_lobe({lobe.roughness_x, lobe.roughness_y}, omega_o_, e);
-        shift_ = std::exp2(2.0 * level_shift(lobe, map_.rho));
         const glm::dvec2 o(omega_o_), change(glm::dot(o, map_.axis1) / map_.rho, glm::dot(o, map_.axis2));
         const double steepness = glm::length(change);
         const glm::dvec2 u = steepness > 1e-7 ? change / steepness : glm::dvec2(0.0, 1.0);
@@ -94,7 +86,7 @@ public:
         // The cosine that the kernel puts back in.
         const double lit = (1.0 + glm::dot(h, h)) * mean.direction.z / length;
         const double weight = mixture.w * mean.base / std::pow(std::max(lit, LEAST_LIT), 1.0 - lobe_.alpha);
-        return {glm::vec4(h, weight, spherical_level(variance * shift_, lobe_.face_size)),
+        return {glm::vec4(h, weight, spherical_level(variance, lobe_.face_size)),
                 float(mean.schlick / mean.base)};
     }
 
@@ -135,7 +127,6 @@ private:
     MatchedLobe lobe_;
     glm::dvec3 omega_o_;
     LobeMap map_;
-    double shift_;        ///< of the level, as a factor of variance
     glm::dvec2 steepest_; ///< slope of one deviation of s = 1 along which cos_i changes most
 };
 

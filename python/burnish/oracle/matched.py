@@ -52,18 +52,6 @@ class Lookups:
     weight: Array  # (..., n, 3), of any scale
 
 
-def level_shift(rho: npt.ArrayLike, samples: int, roughness: float) -> Array:
-    """Levels to add: centres that are far apart against their widths want wider lookups.
-
-    S = -.08 + .22 t + .3 max(0, t - 1) + .36 clamp(m - .15, 0, .45) with t = min(3, rho/n) and the wider
-    roughness m, as measured on training environments.
-    """
-    t = np.minimum(3.0, as_array(rho) / samples)
-    wide = min(max(roughness - 0.15, 0.0), 0.45)
-    shift: Array = -0.08 + 0.22 * t + 0.3 * np.maximum(0.0, t - 1) + 0.36 * wide
-    return shift
-
-
 def spherical_level(variance: npt.ArrayLike, face_texels: int) -> Array:
     """Level of the spherical pyramid at which a lookup has this variance per axis of angle, not clamped.
 
@@ -80,15 +68,14 @@ def has_view_table(lobe: LobeLike) -> bool:
     return max(mx, my) <= MOST_VIEW_ASPECT * min(mx, my)
 
 
-def place_means(omega_o: Array, lobe: LobeLike, samples: int, rows: Array) -> tuple[Means, Array]:
-    """Means of every sample at local views, and the aspects that chose the mixtures."""
+def place_means(omega_o: Array, lobe: LobeLike, samples: int, rows: Array) -> Means:
+    """Means of every sample at local views."""
     mx, my = slopes(lobe)
     matrix, _, _, stretch = lobe_map(omega_o, mx, my)
     axes = principal_axes(matrix)
-    rho = axes[0] / axes[1]
-    mixture = mixture_at(rows, samples, nearest_aspect(rho))
+    mixture = mixture_at(rows, samples, nearest_aspect(axes[0] / axes[1]))
     means_of = corner_means if has_view_table(lobe) else two_point_means
-    return means_of(omega_o, lobe, mixture, axes, stretch), rho
+    return means_of(omega_o, lobe, mixture, axes, stretch)
 
 
 def matched_lookups(
@@ -105,16 +92,15 @@ def matched_lookups(
     view = frame.omega_o
     if has_view_table(lobe):
         near = nearest_view(view, is_round=mx == my)
-        means, rho = place_means(near, lobe, samples, rows)
+        means = place_means(near, lobe, samples, rows)
         h = normalize(near[..., None, :] + means.direction)
         direction = 2 * dot(view[..., None, :], h)[..., None] * h - view[..., None, :]
         lit, near_lit = (np.maximum(i[..., 2], _LEAST_LIT) for i in (direction, means.direction))
         weight = means.gains * ((lit / near_lit) ** (1 - lobe.alpha))[..., None]
     else:
-        means, rho = place_means(view, lobe, samples, rows)
+        means = place_means(view, lobe, samples, rows)
         direction, weight = means.direction, means.gains
-    shift = level_shift(rho, samples, max(mx, my))[..., None]
-    level = spherical_level(4**shift * means.variance, face_texels)
+    level = spherical_level(means.variance, face_texels)
     last = 0.5 * np.log2(face_texels)
     return Lookups(frame.to_world(direction), np.clip(level, 0, last), weight)
 

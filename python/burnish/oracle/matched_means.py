@@ -112,7 +112,7 @@ def _variance(omega_o: Array, mixture: Mixture, axes: Axes, stretch: Array, pair
     product = np.maximum(dot(omega_o[..., None, :2], pair.center) + omega_o[..., None, 2], 0)
     lengths = np.prod(dot(pair.g, pair.g), axis=-1)
     linear = (mixture.s * axes[1][..., None]) ** 2 * product / lengths / stretch[..., None]
-    variance: Array = np.clip(VARIANCE_SHARE * linear, 1e-20, 1.0)
+    variance: Array = np.maximum(VARIANCE_SHARE * linear, 1e-20)
     return variance
 
 
@@ -140,6 +140,8 @@ def corner_means(omega_o: Array, lobe: LobeLike, mixture: Mixture, axes: Axes, s
     g = np.concatenate([slope, np.ones((*slope.shape[:-1], 1))], axis=-1)
     gains, gain, mean = _sum_points(omega_o, lobe, g, CORNER_WEIGHTS, np.ones(1))
     variance = _variance(omega_o, mixture, axes, stretch, _pair(omega_o, lobe, mixture, axes))
+    # The map is far from linear where it makes more than the sphere holds.
+    variance = np.minimum(variance, 1.0)
     return Means(mixture.w[..., None] * gains, _mean_direction(omega_o, gain, mean), variance)
 
 

@@ -9,7 +9,7 @@ import numpy.typing as npt
 from .arrays import Array, as_array, dot, normalize
 from .cube_map import texel_directions, texel_solid_angle
 from .estimator import LocalFrame
-from .kurt_lobe import LobeLike, grazing_factor, kurt_d, schlick_fresnel, slopes
+from .kurt_lobe import LobeLike, grazing_factor, schlick_fresnel, slopes
 
 #: Most suns of a map.
 MOST_SUNS = 4
@@ -79,8 +79,9 @@ def split_suns(faces: npt.ArrayLike) -> tuple[list[Sun], Array]:
 def shade_suns(suns: Sequence[Sun], frame: LocalFrame, lobe: LobeLike) -> Array:
     """Radiance of one lobe, without its weight, under suns: flux f cos_i of a lobe that is wider by the sun.
 
-    A variance v of directions is v/(4 o.h) of half-vectors and v/(4 (o.h) hz^3) of their slopes, geometric
-    means of the two axes each; the lobe's slopes have m^2/2.
+    A variance v of directions is v/4 of half-vectors in the plane of view and light, and v/(4 (o.h)^2) across
+    it, which at grazing views is much more. A step dh changes a slope s = h_xy/hz by (dh_xy - s dh_z)/hz; the
+    lobe's slopes have the covariance diag(m^2)/2.
 
     Returns
     -------
@@ -88,7 +89,6 @@ def shade_suns(suns: Sequence[Sun], frame: LocalFrame, lobe: LobeLike) -> Array:
     """
     omega_o = frame.omega_o
     total = np.zeros(omega_o.shape)
-    mx, my = slopes(lobe)
     axes = np.stack([frame.tangent, frame.bitangent, frame.normal], axis=-2)
     for sun in suns:
         omega_i = axes @ sun.direction
@@ -96,10 +96,36 @@ def shade_suns(suns: Sequence[Sun], frame: LocalFrame, lobe: LobeLike) -> Array:
         seen = (omega_i[..., 2] > 0) & (h[..., 2] > 1e-3)
         h = np.where(seen[..., None], h, [0.0, 0.0, 1.0])
         o_h = np.maximum(dot(omega_o, h), 1e-4)
-        wider = sun.variance / (2 * o_h * h[..., 2] ** 3)
-        density = kurt_d(h, np.sqrt(mx * mx + wider), np.sqrt(my * my + wider)) / (4 * o_h)
+        density = _sunlit_density(h, omega_o, o_h, slopes(lobe), sun.variance) / (4 * o_h)
         grazing = grazing_factor(omega_i[..., 2], omega_o[..., 2], lobe.alpha)
         value = np.where(seen, density * grazing, 0.0)
         fresnel = schlick_fresnel(o_h[..., None], np.broadcast_to(as_array(lobe.r0), 3))
         total = total + value[..., None] * fresnel * sun.flux
     return total
+
+
+def _sunlit_density(
+    h: Array, omega_o: Array, o_h: Array, roughness: tuple[float, float], variance: float
+) -> Array:
+    """D of a lobe whose slopes have the sun's covariance on top of their own."""
+    across = np.cross(omega_o, h)
+    # Toward the light any two directions will do.
+    facing = dot(across, across) <= 1e-8
+    other = np.stack([np.zeros_like(o_h), h[..., 2], -h[..., 1]], axis=-1)
+    across = normalize(np.where(facing[..., None], other, across))
+    along = np.cross(across, h)
+    slope = h[..., :2] / h[..., 2:]
+    scale = 0.5 * np.sqrt(variance) / h[..., 2]
+    x1, y1 = np.moveaxis(scale[..., None] * (along[..., :2] - slope * along[..., 2:]), -1, 0)
+    x2, y2 = np.moveaxis((scale / o_h)[..., None] * (across[..., :2] - slope * across[..., 2:]), -1, 0)
+    own_x, own_y = 0.5 * roughness[0] ** 2, 0.5 * roughness[1] ** 2
+    # Of the covariance; every term is positive, nothing cancels.
+    determinant = own_x * own_y + own_x * (y1**2 + y2**2) + own_y * (x1**2 + x2**2) + (x1 * y2 - y1 * x2) ** 2
+    quadratic = (
+        (own_y + y1**2 + y2**2) * slope[..., 0] ** 2
+        - 2 * (x1 * y1 + x2 * y2) * slope[..., 0] * slope[..., 1]
+        + (own_x + x1**2 + x2**2) * slope[..., 1] ** 2
+    )
+    exponent = 0.5 * quadratic / determinant
+    result: Array = np.exp(-exponent) / (2 * np.pi * np.sqrt(determinant) * h[..., 2] ** 4)
+    return result

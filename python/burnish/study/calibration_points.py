@@ -61,9 +61,13 @@ def _unit(vectors: Float64) -> Float64:
 
 
 def points_at_angle(
-    environment: _core.Environment, width: float, cosine: float, count: int, rng: np.random.Generator
+    environment: _core.Environment,
+    width: float,
+    cosine: float | Float64,
+    count: int,
+    rng: np.random.Generator,
 ) -> WeightedPoints:
-    """Draw points that are seen under one angle.
+    """Draw points that are seen under one angle, or each under its own.
 
     Parameters
     ----------
@@ -71,7 +75,7 @@ def points_at_angle(
         Whose bright parts are reflected more often.
     width : float
         The lobe's deviation on the sphere, radians.
-    cosine : float
+    cosine : float or (count,) float64
         Of the angle between normal and view.
     count : int
         How many.
@@ -94,8 +98,8 @@ def points_at_angle(
     mirror = _unit(centers + rng.uniform(-1.0, 1.0, (count, 3)) / finest)
     # The view lies at twice the angle from the mirror direction, anywhere around it; the normal is half-way.
     around = _unit(np.cross(mirror, _unit(rng.standard_normal((count, 3)))))
-    sine = math.sqrt(1.0 - cosine**2)
-    normals = _unit(mirror * cosine + around * sine)
+    cosines = np.broadcast_to(np.asarray(cosine, np.float64), count)[:, None]
+    normals = _unit(mirror * cosines + around * np.sqrt(1.0 - cosines**2))
     views = _unit(2.0 * np.sum(mirror * normals, axis=1, keepdims=True) * normals - mirror)
     tangents = _unit(np.cross(normals, _unit(rng.standard_normal((count, 3)))))
     n, t, v = (np.ascontiguousarray(array, np.float32) for array in (normals, tangents, views))

@@ -2,6 +2,11 @@
 
 A mixture has n samples of centre y, width s and weight w; all aspects of the lobe are fitted together. Only
 half of the samples are unknown: pairs (y, -y) share s and w, and an odd n has one sample at 0.
+
+Closeness is measured as light sees it. Up to an aspect of about n/5 round samples can fill the lobe, and the
+least difference from it is the best mixture. Along longer lobes that minimum has narrow samples with gaps in
+between, and light in a gap is missed: there the difference is measured at several scales, blurred by as many
+Gaussians, and the mixture may be wider than the lobe.
 """
 
 from dataclasses import dataclass
@@ -11,16 +16,26 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.optimize import minimize
 
+from burnish.oracle.matched_table import ASPECT_COUNT, LARGEST_ASPECT
+
 Float64 = NDArray[np.float64]
 
 #: Aspects of the lobe that have a row of the table.
-ASPECTS: Float64 = 34.0 ** (np.arange(40) / 39)
-#: Least and greatest width of a sample, in units of the minor axis.
-WIDTHS = (0.02, 1.2)
+ASPECTS: Float64 = LARGEST_ASPECT ** (np.arange(ASPECT_COUNT) / (ASPECT_COUNT - 1))
+#: Least width of a sample, in units of the minor axis.
+LEAST_WIDTH = 0.02
+# Greatest one where samples fill the lobe; along longer ones it is a multiple of rho/n.
+_MOST_WIDTH, _MOST_WIDTH_LONG = 1.2, 2.0
+# Deviations of the blurs, in minor axes; the first compares the mixture itself.
+_SCALES = (0.0, 0.5, 1.0, 2.0, 4.0, 8.0, 16.0, 32.0)
+# Weight of the unblurred difference against the blurred ones', along long lobes and, added, on short ones.
+_SHARP, _SHARP_SHORT = 0.05, 1000.0
+# Lobes are short up to this share of n: for the weight of sharpness, for the minor axis' moment; and powers.
+_SHORT_SHARP, _SHORT_MOMENT = (0.2, 4), (0.55, 8)
 # Greatest weight of a sample, in units of 1/n.
 _MOST_WEIGHT = 4.0
 # Weight of the roughness along the aspect.
-_SMOOTHNESS = 1e-3
+_SMOOTHNESS = 3e-3
 # A trilinear lookup's error is correlated over this share of the variance of the lookups.
 _CORRELATION = 0.3
 
@@ -61,20 +76,44 @@ def node_weights(samples: int) -> Float64:
     return result
 
 
+def short_share(samples: int, until: tuple[float, int]) -> Float64:
+    """How far each aspect counts as short: 1/(1 + (rho/(c n))^p) with (c, p) = `until`."""
+    result: Float64 = 1 / (1 + (ASPECTS / (until[0] * samples)) ** until[1])
+    return result
+
+
+def greatest_widths(samples: int) -> Float64:
+    """Greatest width of a sample at each aspect, in units of the minor axis."""
+    return np.maximum(_MOST_WIDTH, _MOST_WIDTH_LONG * ASPECTS / samples)
+
+
+def scale_weights(samples: int) -> Float64:
+    """Weights c of the differences, (scales, aspects).
+
+    Natural light has about as much energy in every octave, a spectrum of 1/f^2 = int 2 c exp(-c f^2) dc with
+    c = sigma^2: blurs an octave apart count by their variance. That of 0 is what small lights see.
+    """
+    weights = np.repeat(np.array(_SCALES)[:, None] ** 2, len(ASPECTS), axis=1)
+    weights[0] = _SHARP + _SHARP_SHORT * short_share(samples, _SHORT_SHARP)
+    return weights
+
+
 def loss_and_gradient(
     unknowns: Float64, samples: int, kernel_error: float, moment_weight: float
 ) -> tuple[float, Float64]:
     """Sum of the losses of all aspects, and its gradient.
 
-    With the lobe K = N(0, diag(rho^2, 1)/2), x = (rho y1, y2), G_k = N(x_k, s_k^2 I), v_jk = s_j^2 + s_k^2:
+    With the lobe K = N(0, diag(rho^2, 1)/2), x = (rho y1, y2), G_k = N(x_k, s_k^2 I), v_jk = s_j^2 + s_k^2
+    and blurs N_i of variance sigma_i^2, sigma_0 = 0:
 
-        E = (|K - sum w G|^2 + eps^2 sum_jk w_j w_k exp(-d_jk^2/(2 hc v_jk))/(2 pi v_jk))/|K|^2
-            + lambda |moments|^2,
-        moments = (sum w - 1, sum w (x1^2 + s^2)/rho^2 - 1/2, sum w (x2^2 + s^2) - 1/2);
+        E = (sum_i c_i |(K - sum w G)*N_i|^2 + c_0 eps^2 sum_jk w_j w_k exp(-d_jk^2/(2 hc v_jk))/(2 pi v_jk))
+            / sum_i c_i |K*N_i|^2 + lambda (m0^2 + m1^2 + short m2^2),
+        m0 = sum w - 1, m1 = sum w (x1^2 + s^2)/rho^2 - 1/2, m2 = sum w (x2^2 + s^2) - 1/2;
 
-    the first moments vanish by symmetry. The term of eps is the expected error of lookups whose kernel
-    differs from a Gaussian by a relative eps, alike for neighbours. Neighbouring aspects are drawn together
-    by mu/n |p_{j+1} - p_j|^2/ln(rho_{j+1}/rho_j). `kernel_error` is eps, `moment_weight` lambda.
+    the first moments vanish by symmetry, and a blur adds its variance to each Gaussian's. The term of eps is
+    the expected error of lookups whose kernel differs from a Gaussian by a relative eps, alike for
+    neighbours. Neighbouring aspects are drawn together by mu/n |p_{j+1} - p_j|^2/ln(rho_{j+1}/rho_j).
+    `kernel_error` is eps, `moment_weight` lambda.
     """
     mixtures = unpack(samples, unknowns)
     rho = ASPECTS[:, None]
@@ -83,42 +122,55 @@ def loss_and_gradient(
     s2 = np.exp(2 * mixtures.log_s)
     mass = count * mixtures.share / samples
 
-    # Products with the lobe.
-    v1, v2 = 0.5 * rho**2 + s2, 0.5 + s2
-    product = np.exp(-0.5 * (x1**2 / v1 + x2**2 / v2)) / (2 * np.pi * np.sqrt(v1 * v2))
-    d_mass = -2 * product
-    d_x1, d_x2 = 2 * mass * product * x1 / v1, 2 * mass * product * x2 / v2
-    d_s2 = -mass * product * (x1**2 / v1**2 + x2**2 / v2**2 - 1 / v1 - 1 / v2)
-    loss = np.sum(mass * d_mass, axis=1)
-
     # Products with each other: x_j with x_k and with -x_k, half of the copies each.
     v = s2[:, :, None] + s2[:, None, :]
     both = mass[:, :, None] * mass[:, None, :]
-    inverse = 1 / v
-    for sign in (-1.0, 1.0):
-        e1, e2 = (x[:, :, None] + sign * x[:, None, :] for x in (x1, x2))
-        distance = (e1**2 + e2**2) * inverse
-        exact = np.exp(-0.5 * distance) * inverse / (2 * np.pi)
-        error = kernel_error**2 * np.exp(-0.5 / _CORRELATION * distance) * inverse / (2 * np.pi)
-        value = exact + error
-        slope = exact + error / _CORRELATION  # -2 d value/d distance
-        loss += 0.5 * np.sum(both * value, axis=(1, 2))
-        d_mass += np.sum(mass[:, None, :] * value, axis=2)
-        pull = both * slope * inverse
-        d_x1 -= np.sum(pull * e1, axis=2)
-        d_x2 -= np.sum(pull * e2, axis=2)
-        d_s2 += np.sum(both * inverse * (0.5 * slope * distance - value), axis=2)
+    offsets = [tuple(x[:, :, None] + sign * x[:, None, :] for x in (x1, x2)) for sign in (-1.0, 1.0)]
+    squared = [e1**2 + e2**2 for e1, e2 in offsets]
+    value, pull, widen = ([np.zeros_like(v), np.zeros_like(v)] for _ in range(3))
+    loss, norm = np.zeros(len(ASPECTS)), np.zeros(len(ASPECTS))
+    d_mass, d_x1, d_x2, d_s2 = (np.zeros_like(x1) for _ in range(4))
+    for c, sigma in zip(scale_weights(samples), _SCALES, strict=True):
+        blur = 2 * sigma**2
+        # Products with the lobe.
+        v1, v2 = 0.5 * rho**2 + s2 + blur, 0.5 + s2 + blur
+        product = c[:, None] * np.exp(-0.5 * (x1**2 / v1 + x2**2 / v2)) / (2 * np.pi * np.sqrt(v1 * v2))
+        d_mass -= 2 * product
+        d_x1 += 2 * mass * product * x1 / v1
+        d_x2 += 2 * mass * product * x2 / v2
+        d_s2 -= mass * product * (x1**2 / v1**2 + x2**2 / v2**2 - 1 / v1 - 1 / v2)
+        loss -= 2 * np.sum(mass * product, axis=1)
+        norm += c / (2 * np.pi * np.sqrt((ASPECTS**2 + blur) * (1 + blur)))
+        inverse = 1 / (v + blur)
+        peak = c[:, None, None] * inverse / (2 * np.pi)
+        for k in (0, 1):
+            distance = squared[k] * inverse
+            exact = peak * np.exp(-0.5 * distance)
+            slope = exact  # -2 d value/d distance
+            if sigma == 0:
+                error = kernel_error**2 * peak * np.exp(-0.5 / _CORRELATION * distance)
+                exact = exact + error
+                slope = slope + error / _CORRELATION
+            value[k] += exact
+            pull[k] += slope * inverse
+            widen[k] += inverse * (0.5 * slope * distance - exact)
+    for k, (e1, e2) in enumerate(offsets):
+        loss += 0.5 * np.sum(both * value[k], axis=(1, 2))
+        d_mass += np.sum(mass[:, None, :] * value[k], axis=2)
+        d_x1 -= np.sum(both * pull[k] * e1, axis=2)
+        d_x2 -= np.sum(both * pull[k] * e2, axis=2)
+        d_s2 += np.sum(both * widen[k], axis=2)
 
-    norm = 1 / (2 * np.pi * ASPECTS)
     loss = loss / norm + 1
     for gradient in (d_mass, d_x1, d_x2, d_s2):
         gradient /= norm[:, None]
 
+    short = short_share(samples, _SHORT_MOMENT)
     total = np.sum(mass, axis=1) - 1
     spread1 = np.sum(mass * (x1**2 + s2), axis=1) / ASPECTS**2 - 0.5
     spread2 = np.sum(mass * (x2**2 + s2), axis=1) - 0.5
-    loss += moment_weight * (total**2 + spread1**2 + spread2**2)
-    m0, m1, m2 = (2 * moment_weight * m[:, None] for m in (total, spread1 / ASPECTS**2, spread2))
+    loss += moment_weight * (total**2 + spread1**2 + short * spread2**2)
+    m0, m1, m2 = (2 * moment_weight * m[:, None] for m in (total, spread1 / ASPECTS**2, short * spread2))
     d_mass += m0 + m1 * (x1**2 + s2) + m2 * (x2**2 + s2)
     d_x1 += 2 * mass * x1 * m1
     d_x2 += 2 * mass * x2 * m2
@@ -167,7 +219,7 @@ def quantiser(samples: int, aspect: float, seed: int) -> Mixtures:
     # A little off the axis: on it the gradient across is 0 by symmetry.
     centres = centres + 1e-3 * rng.normal(size=centres.shape) * (np.arange(half) >= samples % 2)[:, None]
     share = samples * size / len(points) / copies(samples)
-    log_s = np.log(np.clip(np.sqrt(0.5 * spread / size), 2 * WIDTHS[0], 0.9 * WIDTHS[1]))
+    log_s = np.log(np.clip(np.sqrt(0.5 * spread / size), 2 * LEAST_WIDTH, 0.9 * _MOST_WIDTH))
     rows = np.ones((len(ASPECTS), 1))
     return Mixtures(samples, centres[:, 0] / aspect * rows, centres[:, 1] * rows, log_s * rows, share * rows)
 
@@ -177,9 +229,10 @@ def fit(
 ) -> tuple[float, Mixtures]:
     """Minimise the loss from a start by L-BFGS within the bounds; return the loss and the mixtures."""
     size = start.y1.size
+    widest = np.repeat(np.log(greatest_widths(start.samples)), start.y1.shape[1])
     bounds = (
         [(None, None)] * (2 * size)
-        + [(float(np.log(WIDTHS[0])), float(np.log(WIDTHS[1])))] * size
+        + [(float(np.log(LEAST_WIDTH)), float(most)) for most in widest]
         + [(0.0, _MOST_WEIGHT)] * size
     )
     result = minimize(

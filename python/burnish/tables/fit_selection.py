@@ -20,17 +20,32 @@ Float64 = NDArray[np.float64]
 
 #: Edge of the training maps in texels.
 FACE_SIZE = 256
-#: Lobes of the training points: the widths and aspects that matter.
-ROUGHNESSES = ((0.05, 0.05), (0.1, 0.1), (0.15, 0.15), (0.3, 0.3), (0.6, 0.6), (0.2, 0.075), (0.3, 0.05))
+#: Lobes of the training points, and bands of the view's cosine: a cell of each pair counts alike. Averages
+#: over a sphere would hide grazing views of brushed lobes.
+ROUGHNESSES = (
+    (0.05, 0.05),
+    (0.1, 0.1),
+    (0.3, 0.3),
+    (0.6, 0.6),
+    (0.2, 0.075),
+    (0.3, 0.06),
+    (0.4, 0.03),
+    (0.1, 0.02),
+)
+BANDS = ((0.005, 0.1), (0.1, 0.3), (0.3, 1.0))
 # Environments per kind, each one channel, and what the logarithm of a kind's error weighs.
 _PER_KIND = 6
 KIND_WEIGHTS = {"spots": 1.0, "smooth": 0.15, "suns": 0.5}
-_POINTS = 240
+# In each band.
+_POINTS = 100
 
 
 @dataclass(frozen=True)
 class TrainingPoints:
-    """Points of one lobe and their true radiance, (points, channels), as a mean under the lobe."""
+    """Points of one lobe and their true radiance, (points, channels), as a mean under the lobe.
+
+    The points of a band follow those of the one before.
+    """
 
     lobe: KurtLobe
     frame: LocalFrame
@@ -86,10 +101,11 @@ def make_training(seed: int, prefilter: Mixture) -> Training:
     points = []
     for k, roughness in enumerate(ROUGHNESSES):
         rng = np.random.default_rng([seed, 1000 + k])
-        n = normalize(rng.normal(size=(_POINTS, 3)))
-        t, b = frame_from_tangent(n, rng.normal(size=(_POINTS, 3)))
-        # Uniform over the hemisphere down to 80 degrees.
-        cosine, azimuth = rng.uniform(np.cos(np.radians(80)), 1, _POINTS), rng.uniform(0, 2 * np.pi, _POINTS)
+        total = _POINTS * len(BANDS)
+        n = normalize(rng.normal(size=(total, 3)))
+        t, b = frame_from_tangent(n, rng.normal(size=(total, 3)))
+        cosine = np.concatenate([rng.uniform(low, high, _POINTS) for low, high in BANDS])
+        azimuth = rng.uniform(0, 2 * np.pi, total)
         sine = np.sqrt(1 - cosine**2)
         local = np.stack([sine * np.cos(azimuth), sine * np.sin(azimuth), cosine], axis=-1)
         o = local[:, :1] * t + local[:, 1:2] * b + local[:, 2:] * n
@@ -100,29 +116,31 @@ def make_training(seed: int, prefilter: Mixture) -> Training:
 
 
 def errors(training: Training, samples: int, rows: Float64) -> list[Float64]:
-    """Error over the mean truth of one count's rows: per lobe (points, channels)."""
+    """Error over the cell's mean truth of one count's rows: per lobe and band (points, channels)."""
     result = []
     for points in training.points:
         lookups = matched_lookups(points.frame, points.lobe, samples, rows, training.cube.face_texels)
         light = sample_cube(training.cube, lookups.direction, lookups.level)
         weight = lookups.weight[..., :1]
         shaded = np.sum(weight * light, axis=-2) / np.sum(weight, axis=-2)
-        result.append((shaded - points.truth) / np.mean(points.truth, axis=0))
+        for part, truth in zip(np.split(shaded, len(BANDS)), np.split(points.truth, len(BANDS)), strict=True):
+            result.append((part - truth) / np.mean(truth, axis=0))
     return result
 
 
 def score(training: Training, samples: int, rows: Float64) -> float:
-    """Mean over lobes of the weighted logarithms of errors; the less, the better.
+    """Mean over cells, lobe by band, of the weighted logarithms of errors; the less, the better.
 
     A kind's error is the mean over its maps of the logarithm of the RMSE, and of the RMSE of errors clipped
     at 4.5 medians: a few points beside bright discs make most of the former and its noise.
     """
     total = 0.0
     weights = np.array(list(KIND_WEIGHTS.values()))
-    for error in errors(training, samples, rows):
+    cells = errors(training, samples, rows)
+    for error in cells:
         size = np.abs(error)
         clipped = np.minimum(size, 4.5 * np.median(size, axis=0))
         for values in (size, clipped):
             logarithm = 0.5 * np.log(np.mean(values**2, axis=0))
             total += float(np.mean(logarithm.reshape(len(weights), -1), axis=1) @ weights)
-    return total / len(training.points)
+    return total / len(cells)

@@ -3,13 +3,15 @@
 import numpy as np
 import pytest
 
-from burnish.oracle.arrays import normalize
+from burnish.oracle.arrays import normalize, reflect
 from burnish.oracle.cube_map import texel_directions, texel_solid_angle
-from burnish.oracle.kurt_lobe import KurtLobe
+from burnish.oracle.estimator import local_frame
+from burnish.oracle.frame import orthonormal_basis
+from burnish.oracle.kurt_lobe import KurtLobe, grazing_factor, kurt_d
 from burnish.oracle.matched import Matched, read_matched, shade_matched
 from burnish.oracle.pyramid import build_pyramid
 from burnish.oracle.reference import shade_reference
-from burnish.oracle.sun_split import split_suns
+from burnish.oracle.sun_split import Sun, shade_suns, split_suns
 
 SIZE = 128
 
@@ -70,3 +72,30 @@ def test_split_suns_shade_like_the_reference(roughness, rng):
     )
     error = [np.sqrt(np.mean((x - truth) ** 2)) / np.mean(truth) for x in (with_split, without)]
     assert error[0] < 0.01 and error[0] < 0.3 * error[1]
+
+
+@pytest.mark.parametrize("roughness", [(0.05, 0.05), (0.2, 0.05), (0.3, 0.3)])
+@pytest.mark.parametrize("cosine", [0.04, 0.15, 0.6])
+def test_a_sun_widens_the_lobe_as_the_mean_over_its_disc(roughness, cosine, rng):
+    # At grazing views a disc's width counts across the plane of view 1/(o.h) times as much as along it.
+    radius, lobe = 0.006, KurtLobe(roughness)
+    views, got, expected = 40, [], []
+    for _ in range(views):
+        azimuth = rng.uniform(0, 2 * np.pi)
+        sine = np.sqrt(1 - cosine**2)
+        o = np.array([sine * np.cos(azimuth), sine * np.sin(azimuth), cosine])
+        h = normalize([*(0.5 * np.array(roughness) * rng.standard_normal(2)), 1.0])
+        middle = reflect(o, h)
+        if middle[2] < 2 * radius:
+            continue
+        t, b = orthonormal_basis(middle)
+        distance, angle = radius * np.sqrt(rng.random(4000)), rng.uniform(0, 2 * np.pi, 4000)
+        i = normalize(middle + distance[:, None] * (np.cos(angle)[:, None] * t + np.sin(angle)[:, None] * b))
+        half = normalize(i + o)
+        value = kurt_d(half, *roughness) / (4 * (half @ o)) * grazing_factor(i[:, 2], o[2], 0.0)
+        expected.append(np.mean(value))
+        frame = local_frame([0, 0, 1.0], [1.0, 0, 0], o)
+        got.append(shade_suns([Sun(middle, np.ones(3), radius**2 / 4)], frame, lobe)[0])
+    assert len(got) > 10
+    error = np.sqrt(np.sum((np.array(got) - expected) ** 2) / np.sum(np.square(expected)))
+    assert error < 0.08

@@ -1,0 +1,104 @@
+"""Judge `Matched` by cells against the best published sampler: the second table of docs/accuracy.md.
+
+A cell is a lobe, a band of the view's cosine, a map and a count. Exits with 1 while the error of
+`Matched` over the best rival's is above its limit in any cell.
+"""
+
+import argparse
+import json
+import sys
+import warnings
+from collections.abc import Callable
+from datetime import date
+from pathlib import Path
+
+from tqdm import tqdm
+
+import burnish
+from burnish import environments
+from burnish.study.cells import BANDS, COUNTS, LOBES, Cell, as_rows, judge, limit
+
+Maps = dict[str, tuple[str, Callable[[], burnish.Environment]]]
+KINDS = ("real", "spots", "smooth", "suns")
+
+
+def maps(files: list[Path], face_size: int) -> Maps:
+    """Maps by name, with their kinds; the fit has seen none of them."""
+    made: Maps = {}
+    for path in files:
+        made[path.stem] = "real", lambda path=path: burnish.Environment.from_file(path, face_size=face_size)
+    for seed in (41, 42):
+        made[f"spots {seed}"] = "spots", lambda seed=seed: environments.spots(seed, face_size)
+    made["waves 43"] = "smooth", lambda: environments.spots(43, face_size, count=0)
+    made["studio"] = "spots", lambda: environments.studio(face_size)
+    made["sky"] = "suns", lambda: environments.sky(face_size=face_size)
+    return made
+
+
+def markdown(cells: list[Cell], kinds: dict[str, str]) -> str:
+    """Tables by count: lobes down, kinds of maps by bands across, each the worst ratio of its maps."""
+    present = [kind for kind in KINDS if kind in kinds.values()]
+    lines = []
+    for count in sorted({cell.samples for cell in cells}):
+        heads = [f"{kind} {low:g}-{high:g}" for kind in present for low, high in BANDS]
+        lines += [f"| n = {count} | " + " | ".join(heads) + " |", "|---" * (len(heads) + 1) + "|"]
+        for lobe in LOBES:
+            row = []
+            for kind in present:
+                for band in range(len(BANDS)):
+                    here = [
+                        cell.ratio
+                        for cell in cells
+                        if (cell.lobe, cell.band, cell.samples) == (lobe, band, count)
+                        and kinds[cell.environment] == kind
+                    ]
+                    mark = "**" if max(here) > limit(LOBES[lobe]) else ""
+                    row.append(f"{mark}{max(here):.2f}{mark}")
+            lines.append(f"| {lobe} | " + " | ".join(row) + " |")
+        worst = max((cell for cell in cells if cell.samples == count), key=lambda cell: cell.ratio)
+        lines += [
+            "",
+            f"Worst: {worst.name}: {worst.matched:.4f} against {worst.rival:.4f} of {worst.rival_sampler}.",
+            "",
+        ]
+    return "\n".join(lines)
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("files", nargs="*", type=Path, help="real maps: .hdr or .exr files")
+    parser.add_argument("--face-size", type=int, default=256, help="texels along a face (default: 256)")
+    parser.add_argument("--points", type=int, default=240, help="points in each band (default: 240)")
+    parser.add_argument("--counts", type=int, nargs="+", default=COUNTS, help="samples")
+    parser.add_argument(
+        "--truths", type=Path, help="folder that keeps the reference's radiance for later runs"
+    )
+    parser.add_argument("--json", type=Path, metavar="FILE", help="write all cells as JSON")
+    options = parser.parse_args()
+    # The reference of a lobe narrower than a texel may stop short of its standard error, and says so.
+    warnings.simplefilter("ignore", RuntimeWarning)
+    # A pipeline for each roughness would take longer to make than to use.
+    device = burnish.Device(compile="shared")
+    made = maps(options.files, options.face_size)
+    cells = judge(
+        {name: make for name, (_, make) in made.items()},
+        counts=options.counts,
+        points=options.points,
+        device=device,
+        truths=options.truths,
+        progress=lambda names: tqdm(names, desc="maps"),
+    )
+    if options.json:
+        options.json.write_text(json.dumps(as_rows(cells), indent=1) + "\n", encoding="utf-8")
+    print(f"{device.name}, {device.driver}; {date.today()}; faces {options.face_size}, ", end="")
+    print(f"{options.points} points a cell\n")
+    print(markdown(cells, {name: kind for name, (kind, _) in made.items()}))
+    behind = [cell for cell in cells if cell.ratio > limit(LOBES[cell.lobe])]
+    print(f"{len(behind)} of {len(cells)} cells above their limit")
+    for cell in sorted(behind, key=lambda cell: -cell.ratio):
+        print(f"  {cell.name}: {cell.matched:.4f}, {cell.rival:.4f} of {cell.rival_sampler}")
+    sys.exit(int(bool(behind)))
+
+
+if __name__ == "__main__":
+    main()
