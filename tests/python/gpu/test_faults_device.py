@@ -93,4 +93,8 @@ def test_a_shader_that_does_not_compile_is_named(device, scene, expected, call):
     if call == "vkCreateGraphicsPipelines":
         assert named == {"surface/surface.vert + surface/surface.frag"}
     else:
-        assert {"shade/classify_tiles.comp", "shade/background.comp", "shade/shade_constant.comp"} <= named
+        assert {
+            "shade/classify_tiles.comp",
+            "shade/background.comp",
+            "shade/shade_matched_by_view.comp",
+        } <= named
