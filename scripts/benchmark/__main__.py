@@ -2,6 +2,7 @@
 
 import argparse
 import json
+import os
 import sys
 from collections.abc import Callable
 from datetime import date
@@ -112,6 +113,8 @@ def main() -> int:
 
 def measure(options: argparse.Namespace) -> dict:
     """Measure what is asked for, print, write, draw."""
+    # Measures that take turns must not give back one another's pipelines.
+    os.environ.setdefault("BURNISH_PIPELINES", "1000")
     bench = Bench(options.device, options.repeats)
     earlier = read_run(options.json) if options.json and options.json.exists() else {}
     print(f"{bench.device.name}, {bench.device.driver}; {date.today()}; medians of {options.repeats}")
