@@ -200,8 +200,8 @@ MUTATIONS = (
     Mutation(
         "suns that are points",
         "glsl/shade/suns.glsl",
-        "vec2 wider = sqrt(v.roughness * v.roughness + sun.w / (2.0 * cos_d * h.z * h.z * h.z));",
-        "vec2 wider = v.roughness;",
+        "float scale = sqrt(0.5 * sun.w) / h.z;",
+        "float scale = 0.0;",
         ("sun of half a degree, split off",),
     ),
     Mutation(

@@ -15,7 +15,7 @@ from burnish.oracle.cube_map import PaddedCube, pad_cube
 from burnish.oracle.matched import MatchedMap
 from burnish.oracle.prefiltered import shade_prefiltered
 from burnish.oracle.pyramid import hold_in_halves
-from burnish.oracle.reference import shade_reference
+from burnish.oracle.reference import quadrature_parts, shade_reference
 from burnish.oracle.shading import conserving_scale, shade_lobe, shade_matched_lobes
 from burnish.oracle.sun_split import split_suns
 from burnish.rendering import Sampler, shade
@@ -91,7 +91,8 @@ class Bench:
             return shade_matched_lobes(prepared, material, sampler.samples, normals, tangents, views)
         for lobe in lobes:
             if kind == "Reference":
-                part = shade_reference(prepared, normals, tangents, views, lobe)
+                parts = quadrature_parts(prepared.shape[1])
+                part = shade_reference(prepared, normals, tangents, views, lobe, parts)
             elif kind == "Prefiltered":
                 part = shade_prefiltered(prepared, normals, tangents, views, lobe)
             else:

@@ -8,8 +8,22 @@ from .cube_map import cube_direction, texel_solid_angle
 from .estimator import local_frame
 from .kurt_lobe import LobeLike, grazing_factor, schlick_fresnel, slopes
 
+LEAST_QUADRATURE_FACE = 64
+"""Least edge of the grid on a face in the engine's quadrature: texels of coarser maps are taken in parts."""
+
 # q = exp(-40) = 4e-18: such texels add nothing to a sum in float64.
 _LAST_EXPONENT = 40.0
+
+
+def quadrature_parts(face_size: int) -> int:
+    """Parts along an edge that the engine's quadrature takes a texel of such faces in.
+
+    Parameters
+    ----------
+    face_size : int
+        Texels along the edge of a face, a power of two.
+    """
+    return max(1, LEAST_QUADRATURE_FACE // face_size)
 
 
 def subdivide(faces: npt.ArrayLike, parts: int) -> Array:

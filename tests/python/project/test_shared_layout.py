@@ -131,3 +131,10 @@ def test_a_member_out_of_place_is_found(shaders, expected):
     name = min(seen)
     moved = {name: {member: offset + 4 for member, offset in expected[name].items()}}
     assert mismatches(moved, path.name, path.read_bytes())[0]
+
+
+def test_the_oracle_takes_texels_in_the_parts_that_shaders_do():
+    from burnish.oracle.reference import LEAST_QUADRATURE_FACE
+
+    text = (REPOSITORY / "glsl/shared/constants.h").read_text()
+    assert f"LEAST_QUADRATURE_FACE = {LEAST_QUADRATURE_FACE}u;" in text
