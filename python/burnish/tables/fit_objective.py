@@ -30,8 +30,10 @@ _MOST_WIDTH, _MOST_WIDTH_LONG = 1.2, 2.0
 _SCALES = (0.0, 0.5, 1.0, 2.0, 4.0, 8.0, 16.0, 32.0)
 # Weight of the unblurred difference against the blurred ones', along long lobes and, added, on short ones.
 _SHARP, _SHARP_SHORT = 0.05, 1000.0
-# Lobes are short up to this share of n: for the weight of sharpness, for the minor axis' moment; and powers.
-_SHORT_SHARP, _SHORT_MOMENT = (0.2, 4), (0.55, 8)
+# Lobes are short up to this share of n, for the weight of sharpness; and the power.
+_SHORT_SHARP = (0.2, 4)
+#: The same for the minor axis' moment.
+SHORT_MOMENT = (0.55, 8)
 # Greatest weight of a sample, in units of 1/n.
 _MOST_WEIGHT = 4.0
 # Weight of the roughness along the aspect.
@@ -165,7 +167,7 @@ def loss_and_gradient(
     for gradient in (d_mass, d_x1, d_x2, d_s2):
         gradient /= norm[:, None]
 
-    short = short_share(samples, _SHORT_MOMENT)
+    short = short_share(samples, SHORT_MOMENT)
     total = np.sum(mass, axis=1) - 1
     spread1 = np.sum(mass * (x1**2 + s2), axis=1) / ASPECTS**2 - 0.5
     spread2 = np.sum(mass * (x2**2 + s2), axis=1) - 0.5
