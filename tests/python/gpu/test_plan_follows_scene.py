@@ -122,17 +122,18 @@ def many_materials():
 
 def test_many_materials_read_their_samples_from_a_buffer(device, many_materials, smooth64):
     many_materials.environment = smooth64
-    plan = plan_of(many_materials)
+    sampler = burnish.Regular()
+    plan = plan_of(many_materials, sampler)
     assert {one["table"] for one in plan["classes"]} == {"buffer"} and len(plan["classes"]) <= 2
-    frame = burnish.render(many_materials, size=(64, 128), device=device)
+    frame = burnish.render(many_materials, size=(64, 128), sampler=sampler, device=device)
     assert {one["table"] for one in frame.report.classes} == {"buffer"}
     assert frame.report.non_finite == 0
     # One sphere alone has its samples as constants and looks the same.
     alone = scene_of(many_materials.materials[20], environment=smooth64)
     matrix = many_materials.objects[20].world_from_object
     alone.objects[0].world_from_object = matrix
-    assert {one["table"] for one in plan_of(alone)["classes"]} == {"constant"}
-    single = burnish.render(alone, many_materials.default_camera(), (64, 128), device=device)
+    assert {one["table"] for one in plan_of(alone, sampler)["classes"]} == {"constant"}
+    single = burnish.render(alone, many_materials.default_camera(), (64, 128), sampler, device)
     both = (single.alpha > 0) & np.isclose(single.depth, frame.depth)
     assert both.sum() > 10
     np.testing.assert_allclose(frame.color[both], single.color[both], rtol=1e-4)
@@ -151,7 +152,8 @@ def test_one_lobe_among_too_many_kinds_of_material_says_why_it_reads_a_buffer(sp
         material(burnish.KurtLobe(roughness=m, r0=r0, alpha=alpha), LOBE, diffuse=diffuse, emissive=emissive)
         for alpha, r0, m, diffuse, emissive in kinds
     ]
-    classes = plan_of(scene_of(material(LOBE), *others, environment=spots64))["classes"]
+    scene = scene_of(material(LOBE), *others, environment=spots64)
+    classes = plan_of(scene, burnish.Regular())["classes"]
     assert {one["table"] for one in classes} == {"buffer"} and len(classes) == 2
     assert "too many kinds of material in the picture for a pipeline each" in classes[0]["reason"]
     assert "several lobes" in classes[1]["reason"]
