@@ -44,8 +44,8 @@ _MOMENT_WEIGHTS_OF_FEW = {2: 3.0, 3: 3.0, 4: 1.0, 5: 0.5}
 _ASYMMETRY_WEIGHT = 5.0
 # The most samples whose centres are a pair and the middle.
 _MOST_ON_A_LINE = 3
-# Added to the seed of the starts: of 24 seeds one with which neighbouring pixels under smooth light, of wide round
-# lobes and of brushed ones in motion, differ at most 1.5 times as much as the reference's.
+# Added to the seed of the starts: of 24 seeds one with which neighbouring pixels under smooth light, of wide
+# round lobes and of brushed ones in motion, differ at most 1.5 times as much as the reference's.
 _SEED_STEPS = {14: 12}
 # Many unknowns take more iterations.
 _ITERATIONS_A_SAMPLE = 16
