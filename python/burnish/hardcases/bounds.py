@@ -8,7 +8,8 @@ TWIN_BOUND = Bound(
     {"regular": 5e-6, "importance": 5e-6, "matched": 1.05e-4, "prefiltered": 1.05e-4, "reference": 1.2e-3},
     "some ten roundings of 6e-8, and a lookup placed within 1e-6 of its face; matched and prefiltered are "
     "also scaled to the albedo's table, within 1e-4 for round lobes, which adds to these; the reference "
-    "takes a texel's solid angle at its middle, 1e-3 off on faces of 32; corners of the software lookup add 5e-5",
+    "takes a texel's solid angle at its middle, 1e-3 off on faces of 32; corners of the software lookup add "
+    "5e-5",
     corners=CORNERS,
 )
 WILD_BOUND = Bound(0.0, "radiance is a number and no less than 0, always")
