@@ -68,15 +68,12 @@ def _to_rec709(pixels: NDArray[np.float32], part: ExrPart, choice: ExrChoice) ->
     if chromaticities is None or len(set(choice.color)) == 1:  # grey has the white of whatever primaries
         return
     try:
-        matrix = primaries.rec709_from_rgb(chromaticities)
+        turned = primaries.convert_to_rec709(pixels, chromaticities)
     except ValueError as error:
         choice.ignored.append(f"{error}; values are read as linear Rec. 709.")
         return
-    if matrix is not None:
-        primaries.convert(pixels, matrix)
-        choice.notes.append(
-            f"chromaticities of {primaries.describe(chromaticities)} turned into linear Rec. 709 (Bradford)."
-        )
+    if turned:
+        choice.notes.append(f"chromaticities of {turned}")
 
 
 def _note_fields(part: ExrPart, choice: ExrChoice) -> None:

@@ -118,3 +118,23 @@ def convert(pixels: NDArray[np.float32], matrix: Float64) -> None:
         block = pixels[row : row + _ROWS_AT_ONCE, :, :3]
         with np.errstate(invalid="ignore", over="ignore"):
             block[...] = block.astype(np.float64) @ matrix.T
+
+
+def convert_to_rec709(pixels: NDArray[np.float32], chromaticities: Sequence[float]) -> str:
+    """Turn linear RGB of these primaries into linear Rec. 709, in place.
+
+    Returns
+    -------
+    text : str
+        What was done, for a note; empty where the primaries are those of Rec. 709.
+
+    Raises
+    ------
+    ValueError
+        As `xyz_from_rgb`.
+    """
+    matrix = rec709_from_rgb(chromaticities)
+    if matrix is None:
+        return ""
+    convert(pixels, matrix)
+    return f"{describe(chromaticities)} turned into linear Rec. 709 (Bradford)."

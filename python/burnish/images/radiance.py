@@ -15,15 +15,12 @@ def _use_primaries(picture: Picture, numbers: list[float], is_xyz: bool) -> None
         picture.notes.append("PRIMARIES of zeros, as Photoshop writes it, is passed over.")
         return
     try:
-        matrix = primaries.rec709_from_rgb(numbers)
+        turned = primaries.convert_to_rec709(picture.pixels, numbers)
     except ValueError as error:
         picture.ignored.append(f"PRIMARIES: {error}; values are read as linear Rec. 709.")
         return
-    if matrix is not None:
-        primaries.convert(picture.pixels, matrix)
-        picture.notes.append(
-            f"PRIMARIES {primaries.describe(numbers)} turned into linear Rec. 709 (Bradford)."
-        )
+    if turned:
+        picture.notes.append(f"PRIMARIES {turned}")
 
 
 def read_radiance(source: Source) -> Picture:

@@ -135,16 +135,13 @@ def error_tail(color: FloatArray, reference: FloatArray) -> tuple[float, float]:
     trimmed_rmse : float
         Relative RMSE of linear radiance over all other pixels. NaN when none are left or they are black.
     """
-    truth = np.asarray(reference, np.float64).reshape(-1, 3)
+    values, truth = color.reshape(-1, 3), reference.reshape(-1, 3)
     if len(truth) == 0:
         return float("nan"), float("nan")
-    squares = np.sum((np.asarray(color, np.float64).reshape(-1, 3) - truth) ** 2, axis=1)
+    squares = np.sum((values.astype(np.float64) - truth) ** 2, axis=1)
     kept = np.argsort(squares, kind="stable")[: len(squares) - max(1, round(WORST_PIXELS * len(squares)))]
-    total, energy = float(squares.sum()), float(np.sum(truth[kept] ** 2))
-    rest = float(squares[kept].sum())
-    return (1.0 - rest / total if total > 0.0 else 0.0), (
-        float(np.sqrt(rest / energy)) if energy > 0.0 else float("nan")
-    )
+    total, rest = float(squares.sum()), float(squares[kept].sum())
+    return 1.0 - rest / total if total > 0.0 else 0.0, relative_rmse(values[kept], truth[kept])
 
 
 def has_flip() -> bool:
