@@ -25,7 +25,7 @@ bool must_rest() {
         std::this_thread::sleep_for(std::chrono::hours(1));
 }
 
-/// Of the threads of a process a fork has the one that forked.
+/// A fork has only the one thread of its parent that forked.
 void forget_other_threads() {
     working = held;
     calling = held;
@@ -68,7 +68,7 @@ Held::Held() {
 }
 
 Held::~Held() {
-    // Where the interpreter ended this thread within Python it no longer has the lock.
+    // The interpreter may have ended this thread within Python, and it then no longer has the lock.
     if (py::detail::get_thread_state_unchecked() == released) PyEval_SaveThread();
     --held;
     --calling;

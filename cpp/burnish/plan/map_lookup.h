@@ -30,7 +30,7 @@ struct LookupMeasurement {
     std::string kept_in; ///< the file that later processes read it from; "" where it could not be kept
     std::string failure; ///< why there are no figures; "" where there are
 
-    /// Of the time that ours takes to the sampler's.
+    /// The time that our lookup takes is divided by the sampler's.
     double ratio() const { return software_ms / sampler_ms; }
 };
 

@@ -1,4 +1,4 @@
-// What one material calls for.
+// These functions say what one material calls for.
 #pragma once
 
 #include <functional>
@@ -18,7 +18,7 @@ bool has_coat(const Material& material);
 bool has_coat_normal(const Material& material);
 /// A lobe reflects differently along tangent and bitangent.
 bool is_brushed(const Material& material);
-/// What it looks like depends on the tangents of its mesh.
+/// Tells whether the material looks otherwise under other tangents of its mesh.
 bool needs_tangent(const Material& material);
 
 } // namespace burnish

@@ -124,7 +124,7 @@ struct Plan {
     std::vector<std::vector<Sun>> suns;                           ///< taken out of each, by environment
     /// What lights diffuse surfaces, by environment: the maps with their suns.
     std::vector<std::shared_ptr<const Environment>> whole_environments;
-    /// Of those, which light something diffuse: into environments, each once.
+    /// Indices of the environments that light something diffuse, each once.
     std::vector<uint32_t> diffuse_environments;
     std::vector<MapSet> map_sets;
     std::vector<MaterialInstance> instances;

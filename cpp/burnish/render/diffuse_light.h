@@ -1,4 +1,4 @@
-// What diffuse surfaces read of maps, made once for each map and kept for later frames.
+// Diffuse surfaces read this light of maps; it is made once for each map and kept for later frames.
 #pragma once
 
 #include <array>

@@ -15,7 +15,7 @@ namespace burnish {
 namespace {
 
 constexpr VkDeviceSize MOST_SPARE_BYTES = VkDeviceSize{256} << 20;
-/// Of the tools, for maps of several sizes that take turns; one size may need more.
+/// The tools keep this much for maps of several sizes that take turns; one size may need more.
 constexpr uint64_t MOST_SCRATCH_BYTES = uint64_t{128} << 20;
 
 using EnvironmentSpan = std::span<const std::shared_ptr<const Environment>>;
