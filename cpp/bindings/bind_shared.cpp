@@ -29,7 +29,7 @@ std::map<std::string, Layout> shared_layout() {
           FIELD(LobeRecord, table_count), FIELD(LobeRecord, albedo_begin),
           FIELD(LobeRecord, albedo_width_nodes), FIELD(LobeRecord, threshold_log),
           FIELD(LobeRecord, conserves_energy), FIELD(LobeRecord, variance_share),
-          FIELD(LobeRecord, view_columns), FIELD(LobeRecord, pad0)}},
+          FIELD(LobeRecord, view_columns), FIELD(LobeRecord, view_drift)}},
         {"MaterialRecord",
          {FIELD(MaterialRecord, diffuse), FIELD(MaterialRecord, emissive), FIELD(MaterialRecord, lobe_begin),
           FIELD(MaterialRecord, lobe_count), FIELD(MaterialRecord, map), FIELD(MaterialRecord, shade_class)}},

@@ -41,7 +41,9 @@ py::array_t<T, py::array::c_style> require_array(const py::array& array, const c
         fits = expected[i] == any || expected[i] == actual[i];
     }
     const bool is_contiguous = (array.flags() & py::array::c_style) != 0;
-    if (!fits || !is_contiguous || !array.dtype().is(py::dtype::of<T>())) {
+    // Unpickled arrays have a type object of their own: types are compared, not objects.
+    const bool has_type = py::array_t<T, 0>::check_(array);
+    if (!fits || !is_contiguous || !has_type) {
         throw std::invalid_argument(
             message(name, ": expected C-contiguous ", std::string(py::str(py::dtype::of<T>())), " of shape ",
                     shape_text(expected), ", got ", is_contiguous ? "" : "non-contiguous ",

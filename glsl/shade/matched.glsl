@@ -114,9 +114,12 @@ struct Component {
 // below level 1 the mix of both has that share of level 1.
 float spherical_level(float share) { return share > 1.0 ? 1.0 + 0.5 * log2(share) : share; }
 
-// `share`: see spherical_level.
-Lookup finish_component(LobeView v, Component component, float weight, float share) {
+// `share`: of the linear map, see spherical_level; at least half of the spread of what the points reflect, 1 - |M|/G, which is more
+// where the centre reflects the horizon.
+Lookup finish_component(LobeView v, MixtureView view, Component component, float weight, float share) {
     Lookup lookup;
+    float spread = 1.0 - length(component.direction) / component.gain;
+    share = max(share, MATCHED_LEAST_SPREAD_SHARE * view.share * spread);
     lookup.aim = aim_at_map(component.direction, v.layer, spherical_level(share));
     lookup.weight = weight * component.base;
     lookup.schlick = HAS_FRESNEL ? component.schlick / component.base : 0.0;
@@ -155,7 +158,7 @@ Lookup place_narrow(LobeView v, MixtureView view, Pair pair, vec3 d, float og, v
     vec2 along = share * q;
     component.direction =
         (along.x + along.y) * (v.frame[2] + d) + (pair.s * (along.x - along.y)) * view.h - component.gain * v.omega_o;
-    return finish_component(v, component, pair.weight, pair.variance * og);
+    return finish_component(v, view, component, pair.weight, pair.variance * og);
 }
 
 void add_point(LobeView v, MixtureView view, vec3 offset, float share, inout Component component) {
@@ -185,7 +188,7 @@ Lookup place_wide(LobeView v, MixtureView view, Pair pair, vec3 d, float og) {
     add_point(v, view, d + across - along, 5.0 / 24.0, component);
     add_point(v, view, d - across + along, 5.0 / 24.0, component);
     add_point(v, view, d + across + along, 5.0 / 24.0, component);
-    return finish_component(v, component, pair.weight, pair.variance * og);
+    return finish_component(v, view, component, pair.weight, pair.variance * og);
 }
 
 void place_pair(LobeView v, MixtureView view, vec4 entry, out Lookup one, out Lookup other) {

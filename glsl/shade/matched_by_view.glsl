@@ -9,10 +9,11 @@
 struct TableView {
     vec3 axis1, axis2; // environment space, unit, across the normal
     vec2 o;            // the view along them
+    vec2 offset;       // of all slopes: their drift with the view
     int row;
 };
 
-TableView view_of_table(LobeView v, uint columns) {
+TableView view_of_table(LobeView v, uint columns, vec2 drift) {
     // 0 along the normal, 1 at the horizon; rows are even in it.
     float cos_o = clamp(v.local_o.z, 0.0, 1.0);
     float radius = sqrt(max(1.0 - 0.5 * (cos_o + sqrt(cos_o)), 0.0));
@@ -23,6 +24,7 @@ TableView view_of_table(LobeView v, uint columns) {
         view.axis1 = side * v.frame[0];
         view.axis2 = side * v.frame[1];
         view.o = side * v.local_o.xy;
+        view.offset = drift * view.o;
         // The disc of views on a square: along a ray from the middle, the normal, to the edge, the horizon.
         const float last = float(MATCHED_VIEW_NODES - 1u);
         vec2 node = view.o * (last * radius / max(max(abs(view.o.x), view.o.y), 1e-20)) + vec2(last + 0.5, 0.5);
@@ -33,6 +35,7 @@ TableView view_of_table(LobeView v, uint columns) {
     view.axis1 = plane.x * v.frame[0] + plane.y * v.frame[1];
     view.axis2 = plane.x * v.frame[1] - plane.y * v.frame[0];
     view.o = vec2(plane.z, 0.0);
+    view.offset = drift * view.o;
     view.row = int(radius * float(MATCHED_ROWS - 1u) + 0.5);
     return view;
 }
@@ -41,9 +44,10 @@ TableView view_of_table(LobeView v, uint columns) {
 // entries lack that to the power of 1 - alpha: it changes most from view to view.
 Lookup place_by_view(LobeView v, TableView view, vec4 entry, float schlick) {
     Lookup lookup;
-    vec3 g = v.frame[2] + entry.x * view.axis1 + entry.y * view.axis2;
-    float twice_og = 2.0 * (v.local_o.z + dot(entry.xy, view.o));
-    float length2 = 1.0 + dot(entry.xy, entry.xy);
+    vec2 slope = entry.xy + view.offset;
+    vec3 g = v.frame[2] + slope.x * view.axis1 + slope.y * view.axis2;
+    float twice_og = 2.0 * (v.local_o.z + dot(slope, view.o));
+    float length2 = 1.0 + dot(slope, slope);
     lookup.aim = aim_at_map(twice_og * g - length2 * v.omega_o, v.layer, entry.w);
     lookup.weight = entry.z * lit_power(twice_og - length2 * v.local_o.z, v.alpha);
     lookup.schlick = schlick;
@@ -58,10 +62,10 @@ Lookup place_by_view(LobeView v, TableView view, vec4 entry, float schlick) {
     PLACE_BY_VIEW(a, 0, l0) PLACE_BY_VIEW(b, 1, l1) PLACE_BY_VIEW(c, 2, l2) PLACE_BY_VIEW(d, 3, l3)                    \
     ADD(a, l0) ADD(b, l1) ADD(c, l2) ADD(d, l3)
 
-LobeSums gather_by_view(LobeView v, uint table_begin, uint columns) {
+LobeSums gather_by_view(LobeView v, uint table_begin, uint columns, uint drift) {
     LobeSums sums = LobeSums(vec3(0.0), vec3(0.0), 0.0, 0.0, 0.0);
     const uint entries = SAMPLE_COUNT + (HAS_FRESNEL ? (SAMPLE_COUNT + 3u) / 4u : 0u);
-    TableView view = view_of_table(v, columns);
+    TableView view = view_of_table(v, columns, unpackHalf2x16(drift));
     int row = int(table_begin) + int(entries) * view.row;
     vec4 schlick = vec4(0.0);
     Lookup l0, l1, l2, l3;

@@ -56,6 +56,7 @@ LobeRecord load_lobe(uint index) {
     lobe.conserves_energy = row.x;
     lobe.variance_share = uintBitsToFloat(row.y);
     lobe.view_columns = row.z;
+    lobe.view_drift = row.w;
     return lobe;
 }
 

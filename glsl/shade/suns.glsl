@@ -6,6 +6,11 @@
 #include "shade/lobe.glsl"
 
 layout(constant_id = SPEC_SUN_COUNT) const uint SUN_COUNT = 0u;
+const float SUN_MOST_STEP = 0.1414214; // of sqrt(2) deviations
+
+// What a step of the half-vector changes its slope by. Of steps that change h.z by more than a tenth that is no longer so: they would give
+// a half-vector along the surface the slopes of all others.
+vec2 slope_step(vec3 step, vec2 slope) { return step.xy - slope * clamp(step.z, -SUN_MOST_STEP, SUN_MOST_STEP); }
 
 // Flux times f cos_i of a lobe that is wider by the sun. A variance v of directions is v/4 of half-vectors in the plane of view and light,
 // v/(4 (o.h)^2) across it: at grazing views much more. The lobe's slopes have m^2/2; C is twice the covariance of both.
@@ -22,7 +27,7 @@ vec3 shade_sun(LobeView v, vec4 sun, vec3 flux, vec3 specular, vec3 grazing) {
     vec3 along = cross(across, h);
     float scale = sqrt(0.5 * sun.w) / h.z;
     vec2 slope = h.xy / h.z;
-    vec2 s1 = scale * (along.xy - slope * along.z), s2 = (scale / cos_d) * (across.xy - slope * across.z);
+    vec2 s1 = slope_step(scale * along, slope), s2 = slope_step((scale / cos_d) * across, slope);
     vec2 m2 = v.roughness * v.roughness, wider = s1 * s1 + s2 * s2;
     float off = s1.x * s1.y + s2.x * s2.y, turn = s1.x * s2.y - s1.y * s2.x;
     float determinant = m2.x * m2.y + m2.x * wider.y + m2.y * wider.x + turn * turn;

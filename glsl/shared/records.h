@@ -27,7 +27,7 @@ struct LobeRecord {
     uint conserves_energy; // 1: divided by its albedo where that exceeds 1
     float variance_share;  // of matched lookups: what a variance of 1 is of level 1's, face_texels / (16 SPHERICAL_VARIANCE)
     uint view_columns;     // of a table by view: 1 = isotropic
-    uint pad0;
+    uint view_drift;       // of a table by view, two halves: what slopes move by for a unit of the view along and across
 };
 SHARED_SIZE(LobeRecord, 16 * LOBE_ROWS)
 

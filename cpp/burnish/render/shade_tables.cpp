@@ -148,7 +148,8 @@ ShadeTables make_shade_tables(const vulkan::DevicePointer& device, const Scene& 
                     const auto views =
                         writer.view_table(matched->samples, lobe, traits.has_fresnel, face_size);
                     record.table_begin = views.begin;
-                    record.view_columns = views.count;
+                    record.view_columns = views.columns;
+                    record.view_drift = views.drift;
                 } else {
                     record.table_begin = writer.mixtures(matched->samples);
                 }

@@ -8,9 +8,12 @@
 #include <optional>
 #include <vector>
 
+#include <glm/gtc/packing.hpp>
+
 #include "burnish/plan/plan.h"
 #include "burnish/render/table_cache.h"
 #include "burnish/sampling/sample_table.h"
+#include "burnish/sampling/weighted_lobe.h"
 
 namespace burnish::render {
 
@@ -71,8 +74,12 @@ public:
         return *mixtures_begin_;
     }
 
-    /// First entry of the lookups of one lobe by view, and its columns.
-    Range view_table(uint32_t count, const KurtLobe& lobe, bool has_schlick, uint32_t face_size) {
+    struct ViewRange {
+        uint32_t begin, columns, drift;
+    };
+
+    /// First entry of the lookups of one lobe by view, its columns and what its slopes drift by.
+    ViewRange view_table(uint32_t count, const KurtLobe& lobe, bool has_schlick, uint32_t face_size) {
         MatchedLobe key{count, lobe.roughness.x, lobe.roughness.y, lobe.alpha, 1.0f,
                         0.0f,  has_schlick,      face_size};
         const float specular = mean(lobe.weight * lobe.r0), total = mean(lobe.weight);
@@ -84,7 +91,7 @@ public:
         auto found = view_begins_.find(key);
         if (found == view_begins_.end())
             found = view_begins_.emplace(key, append(cache_.view_table(key))).first;
-        return {found->second, view_columns(key)};
+        return {found->second, view_columns(key), glm::packHalf2x16(lobe_drift(key))};
     }
 
     /// First entry and azimuth nodes of the albedo table of a lobe of one roughness.

@@ -38,6 +38,42 @@ def lobe_map(omega_o: npt.ArrayLike, mx: float, my: float) -> tuple[Array, Array
     return 2 * np.stack(rows, axis=-2), t1, t2, c
 
 
+def reflection_map(omega_o: npt.ArrayLike, slope: npt.ArrayLike, columns: npt.ArrayLike) -> Array:
+    """Derivative of the reflection at the half-vector of a slope, for changes of it along two columns.
+
+    With g = (slope, 1), h = g/|g|, dh = (I - h h^T) (columns; 0)/|g| the direction 2 (o.h) h - o changes by
+    2 (h (o.dh) + (o.h) dh). h.dh = 0: along h it is 2 o.dh, across it 2 (o.h) dh.
+
+    Parameters
+    ----------
+    omega_o : (..., 3)
+    slope : (..., 2)
+    columns : (..., 2, 2)
+
+    Returns
+    -------
+    matrix : (..., 2, 2)
+        In the basis of the direction's tangents in the plane of o and h and across it.
+    """
+    omega_o, slope, columns = (as_array(v) for v in (omega_o, slope, columns))
+    g = np.concatenate([slope, np.ones((*slope.shape[:-1], 1))], axis=-1)
+    length = np.linalg.norm(g, axis=-1, keepdims=True)
+    h = g / length
+    wide = np.concatenate([columns, np.zeros((*columns.shape[:-2], 1, 2))], axis=-2) / length[..., None]
+    dh = wide - h[..., :, None] * np.einsum("...i,...ij->...j", h, wide)[..., None, :]
+    o_h = np.sum(omega_o * h, axis=-1, keepdims=True)
+    # Unit vectors across h: t in the plane of o and h, b across the plane.
+    t = omega_o - o_h * h
+    sine = np.linalg.norm(t, axis=-1, keepdims=True)
+    t = np.where(sine > _SMALL, t, np.cross([0.0, 1.0, 0.0], h))
+    t = normalize(t)
+    b = np.cross(h, t)
+    # Turned by the reflection, a change along t stays as long as it is, one across shrinks by o.h.
+    along = 2 * np.einsum("...i,...ij->...j", t, dh)
+    across = 2 * o_h * np.einsum("...i,...ij->...j", b, dh)
+    return np.stack([along, across], axis=-2)
+
+
 def principal_axes(matrix: npt.ArrayLike) -> tuple[Array, Array, Array, Array]:
     """Singular values a >= b of 2 x 2 matrices, and the first right singular vector (v1, v2).
 

@@ -12,8 +12,7 @@ from .arrays import Array, as_array, dot, normalize
 from .cube_map import PaddedCube, pad_cube, sample_cube
 from .estimator import LocalFrame, local_frame
 from .kurt_lobe import LobeLike, slopes
-from .lobe_map import lobe_map, principal_axes
-from .matched_means import Means, corner_means, two_point_means
+from .matched_means import Means, view_means, linear_place, two_point_means, weighted_place
 from .matched_table import (
     MOST_VIEW_ASPECT,
     closest_count,
@@ -25,6 +24,7 @@ from .matched_table import (
 from .pyramid import build_pyramid
 from .spherical_pyramid import build_spherical_pyramid
 from .sun_split import Sun, shade_suns, split_suns
+from .weighted_lobe import lobe_drift
 
 #: Variance per axis of a lookup at level l of the spherical pyramid, in 4^l (2/N)^2 steradian: .75 of the
 #: level and what bilinear interpolation adds, 1/6 on a face and about .1 on the sphere.
@@ -70,12 +70,19 @@ def has_view_table(lobe: LobeLike) -> bool:
 
 def place_means(omega_o: Array, lobe: LobeLike, samples: int, rows: Array) -> Means:
     """Means of every sample at local views."""
+    by_view = has_view_table(lobe)
+    place = weighted_place(omega_o, lobe) if by_view else linear_place(omega_o, lobe)
+    mixture = mixture_at(rows, samples, nearest_aspect(place.rho))
+    return (view_means if by_view else two_point_means)(omega_o, lobe, mixture, place)
+
+
+def _along_plane(view: Array, near: Array, lobe: LobeLike) -> Array:
+    """What o_x and o_y are from the table's view to the point's; of round lobes along the plane of view."""
     mx, my = slopes(lobe)
-    matrix, _, _, stretch = lobe_map(omega_o, mx, my)
-    axes = principal_axes(matrix)
-    mixture = mixture_at(rows, samples, nearest_aspect(axes[0] / axes[1]))
-    means_of = corner_means if has_view_table(lobe) else two_point_means
-    return means_of(omega_o, lobe, mixture, axes, stretch)
+    if mx != my:
+        return view[..., :2] - near[..., :2]
+    sine, length = (np.linalg.norm(v[..., :2], axis=-1, keepdims=True) for v in (view, near))
+    return near[..., :2] * ((sine - length) / np.where(length > 0, length, 1.0))
 
 
 def matched_lookups(
@@ -86,14 +93,17 @@ def matched_lookups(
     The spherical pyramid is the same everywhere: nothing but the directions' rotation depends on the frame.
     Samples depend on the lobe and the view in its frame: half-vectors and levels are those of the nearest
     view of a table, and so are weights but for their factor cos_i^(1-alpha), unless the lobe's aspect exceeds
-    MOST_VIEW_ASPECT.
+    MOST_VIEW_ASPECT. Slopes of the half-vectors drift with the view, by `lobe_drift` for a unit of it.
     """
     mx, my = slopes(lobe)
     view = frame.omega_o
     if has_view_table(lobe):
         near = nearest_view(view, is_round=mx == my)
         means = place_means(near, lobe, samples, rows)
-        h = normalize(near[..., None, :] + means.direction)
+        half = near[..., None, :] + means.direction
+        moved = (lobe_drift(lobe) * _along_plane(view, near, lobe))[..., None, :]
+        slope = half[..., :2] / half[..., 2:] + moved
+        h = normalize(np.concatenate([slope, np.ones_like(half[..., 2:])], axis=-1))
         direction = 2 * dot(view[..., None, :], h)[..., None] * h - view[..., None, :]
         lit, near_lit = (np.maximum(i[..., 2], _LEAST_LIT) for i in (direction, means.direction))
         weight = means.gains * ((lit / near_lit) ** (1 - lobe.alpha))[..., None]

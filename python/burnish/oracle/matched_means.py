@@ -6,23 +6,30 @@ import numpy as np
 
 from .albedo import blend_albedo
 from .arrays import Array, as_array, dot
-from .kurt_lobe import LobeLike, grazing_factor, schlick_fresnel, slopes
+from .kurt_lobe import LobeLike, slopes
+from .lobe_map import lobe_map, principal_axes, reflection_map
 from .matched_table import Mixture
+from .weighted_lobe import lobe_moments, moment_share, reflect_slopes
 
 # Where less than this is reflected, the sample lies below the horizon.
 _SMALL = 1e-9
-# Reflectance along the normal below which directions are no longer weighed by it.
-_LEAST_SPECULAR = 1e-3
 
-_CORNER = np.sqrt(1.2)
-#: Points of a mean, in units of the width of a sample, and their weights: exact to the third degree. At a
-#: distance of sqrt(2.4) they give wide lobes and dielectrics less error than other rules of up to nine.
-CORNER_POINTS = _CORNER * np.array([[0, 0], [1, 1], [1, -1], [-1, 1], [-1, -1]])
-CORNER_WEIGHTS = np.array([4, 5, 5, 5, 5]) / 24
+#: Lobes of greater slopes have means over many points.
+WIDE_SLOPE = 0.35
 #: Of the linear map's variance, what a sample has.
 VARIANCE_SHARE = 0.95
+#: Of the spread of what a sample's points reflect, what its variance is at least.
+LEAST_SPREAD_SHARE = 0.5
 
-Axes = tuple[Array, Array, Array, Array]
+
+@dataclass(frozen=True)
+class Place:
+    """Where a mixture lies: slopes center + y1 axis1 + y2 axis2 of half-vectors, (..., 2) each."""
+
+    center: Array
+    axis1: Array
+    axis2: Array
+    rho: Array  # (...), aspect of the axes once they are mirrored: a sample is s/rho wide in y1, s in y2
 
 
 @dataclass(frozen=True)
@@ -34,130 +41,165 @@ class Means:
     variance: Array  # (..., n), per axis
 
 
-def grey_specular(lobe: LobeLike) -> float:
-    """Reflectance along the normal over all channels, weighed as they are seen: mean(w r0)/mean(w)."""
-    weight, r0 = np.broadcast_to(as_array(lobe.weight), 3), np.broadcast_to(as_array(lobe.r0), 3)
-    if np.mean(weight) <= 0:
-        return 1.0
-    return float(np.clip(np.mean(weight * r0) / np.mean(weight), _LEAST_SPECULAR, 1.0))
-
-
-def _unit_axes(lobe: LobeLike, axes: Axes) -> tuple[Array, Array]:
-    """Slopes of the lobe's two axes on the sphere, (..., 1, 2) each."""
+def linear_place(omega_o: Array, lobe: LobeLike) -> Place:
+    """Over the lobe itself, along the principal axes of `lobe_map`."""
     mx, my = slopes(lobe)
-    v1, v2 = axes[2][..., None], axes[3][..., None]
-    return np.stack([mx * v1, my * v2], axis=-1), np.stack([-mx * v2, my * v1], axis=-1)
+    a, b, v1, v2 = principal_axes(lobe_map(omega_o, mx, my)[0])
+    axis1, axis2 = np.stack([mx * v1, my * v2], axis=-1), np.stack([-mx * v2, my * v1], axis=-1)
+    return Place(np.zeros_like(axis1), axis1, axis2, a / b)
 
 
-def _sum_points(omega_o: Array, lobe: LobeLike, g: Array, shares: Array, bend: Array) -> tuple[Array, ...]:
-    """Sums over points g = (slope, 1), (..., n, points, 3): gains (..., n, 3), E[F g] and E[F g omega_i].
+def weighted_place(omega_o: Array, lobe: LobeLike) -> Place:
+    """Over what is reflected of the lobe, `moment_share` of the way there.
 
-    A point mirrors the view to q g - o, q = 2 (o.g)/|g|^2 bend, and weighs
-    F cos_i^(1-alpha) cos_o^-alpha |g|.
+    With mean mu and covariance S of `lobe_moments`, both mixed with the lobe's own 0 and 1/2: R = (2 S)^1/2
+    carries the lobe to where it lies. J, the derivative of the reflection at the half-vector of mu times R,
+    has the principal axes. Of round lobes they are the plane of view and across it, whichever is longer:
+    around the normal of a wide one that changes, and a step would show.
     """
-    o = omega_o[..., None, None, :]
-    length2 = dot(g, g)
-    product = dot(o, g)
-    omega_i = (2 * product / length2 * bend)[..., None] * g - o
-    grazing = grazing_factor(np.where(product > 0, omega_i[..., 2], 0.0), o[..., 2], lobe.alpha)
-    value = shares * np.sqrt(length2) * grazing
-    o_h = product / np.sqrt(length2)
-    r0 = np.broadcast_to(as_array(lobe.r0), 3)
-    sums = [np.sum(value, axis=-1), np.sum(value * schlick_fresnel(o_h, 0.0), axis=-1)]
-    grey = value * schlick_fresnel(o_h, grey_specular(lobe))
-    return (
-        blend_albedo(np.stack(sums, axis=-1), r0),
-        np.sum(grey, axis=-1),
-        np.sum(grey[..., None] * omega_i, axis=-2),
+    mx, my = slopes(lobe)
+    moments = lobe_moments(omega_o, lobe)
+    share = moment_share((mx, my))
+    center = share * moments.mean
+    doubled = 2 * share * moments.covariance + (1 - share) * np.eye(2)
+    # The root of a symmetric matrix S is (S + det^1/2)/(trace + 2 det^1/2)^1/2.
+    determinant = np.sqrt(np.linalg.det(doubled))[..., None, None]
+    trace = np.trace(doubled, axis1=-2, axis2=-1)[..., None, None]
+    root = (doubled + determinant * np.eye(2)) / np.sqrt(trace + 2 * determinant)
+    roughness = np.array([mx, my])
+    center, columns = center * roughness, root * roughness[:, None]
+    mirrored = reflection_map(omega_o, center, columns)
+    if mx == my:
+        length = np.linalg.norm(omega_o[..., :2], axis=-1)
+        seen = length > 0
+        v1, v2 = (np.where(seen, omega_o[..., k], 1.0 - k) / np.where(seen, length, 1.0) for k in (0, 1))
+        along, across = (
+            np.linalg.norm(np.einsum("...ij,...j->...i", mirrored, v), axis=-1)
+            for v in (np.stack([v1, v2], axis=-1), np.stack([-v2, v1], axis=-1))
+        )
+        rho = np.maximum(along / across, 1.0)
+    else:
+        a, b, v1, v2 = principal_axes(mirrored)
+        rho = a / b
+    axis1 = columns[..., 0] * v1[..., None] + columns[..., 1] * v2[..., None]
+    axis2 = columns[..., 1] * v1[..., None] - columns[..., 0] * v2[..., None]
+    return Place(center, axis1, axis2, rho)
+
+
+def _slopes_at(place: Place, y1: Array, y2: Array) -> Array:
+    """Slopes (..., n, 2) or (..., n, points, 2) at places in the mixture."""
+    center, axis1, axis2 = (
+        v.reshape(*v.shape[:-1], *(1,) * (y1.ndim - v.ndim + 1), 2)
+        for v in (place.center, place.axis1, place.axis2)
     )
-
-
-def _mean_direction(omega_o: Array, gain: Array, mean: Array) -> Array:
-    """Unit mean directions; where nothing is reflected the mirror direction."""
-    seen = gain > _SMALL
-    length = np.where(seen, np.linalg.norm(mean, axis=-1), 1.0)
-    mirror = omega_o[..., None, :] * [-1.0, -1.0, 1.0]
-    direction: Array = np.where(seen[..., None], mean / length[..., None], mirror)
-    return direction
+    return center + y1[..., None] * axis1 + y2[..., None] * axis2
 
 
 @dataclass(frozen=True)
 class _Pair:
     """The points one deviation to either side of a sample's centre along h, the direction of half-vectors in
-    which cos_i changes most for the covariance s^2 (along along^T/rho^2 + across across^T).
+    which cos_i changes most for the covariance s^2 (axis1 axis1^T/rho^2 + axis2 axis2^T).
     """
 
-    g: Array  # (..., n, 2, 3), 1 along the normal
-    center: Array  # (..., n, 2), slope
+    slope: Array  # (..., n, 2, 2)
     p: Array  # (..., 1, 2), one deviation of s = 1 across h, o.p = 0
 
 
-def _pair(omega_o: Array, lobe: LobeLike, mixture: Mixture, axes: Axes) -> _Pair:
-    a, b = axes[0][..., None], axes[1][..., None]
-    along, across = _unit_axes(lobe, axes)
-    tangential = omega_o[..., None, :2]
-    change = np.stack([dot(tangential, along) * b / a, dot(tangential, across)], axis=-1)
+def _pair(omega_o: Array, mixture: Mixture, place: Place) -> _Pair:
+    tangential, narrow = omega_o[..., :2], place.axis1 / place.rho[..., None]
+    change = np.stack([dot(tangential, narrow), dot(tangential, place.axis2)], axis=-1)
     steepness = np.linalg.norm(change, axis=-1, keepdims=True)
     u = np.where(steepness > 1e-7, change / np.where(steepness > 1e-7, steepness, 1.0), [0.0, 1.0])
-    h = u[..., :1] * (b / a)[..., None] * along + u[..., 1:] * across
-    p = -u[..., 1:] * (b / a)[..., None] * along + u[..., :1] * across
-    center = mixture.y1[..., None] * along + mixture.y2[..., None] * across
-    offset = mixture.s[..., None] * h
-    slope = np.stack([center + offset, center - offset], axis=-2)
-    return _Pair(np.concatenate([slope, np.ones((*slope.shape[:-1], 1))], axis=-1), center, p)
+    h = u[..., :1] * narrow + u[..., 1:] * place.axis2
+    p = -u[..., 1:] * narrow + u[..., :1] * place.axis2
+    center = _slopes_at(place, mixture.y1, mixture.y2)
+    offset = mixture.s[..., None] * h[..., None, :]
+    return _Pair(np.stack([center + offset, center - offset], axis=-2), p[..., None, :])
 
 
-def _variance(omega_o: Array, mixture: Mixture, axes: Axes, stretch: Array, pair: _Pair) -> Array:
-    """Per axis: .95 of the linear map's, (s b)^2 (o.h) cos_h^3/c with |g|^4 the product of the pair's."""
-    product = np.maximum(dot(omega_o[..., None, :2], pair.center) + omega_o[..., None, 2], 0)
-    lengths = np.prod(dot(pair.g, pair.g), axis=-1)
-    linear = (mixture.s * axes[1][..., None]) ** 2 * product / lengths / stretch[..., None]
-    variance: Array = np.maximum(VARIANCE_SHARE * linear, 1e-20)
-    return variance
+def _means(
+    omega_o: Array,
+    lobe: LobeLike,
+    mixture: Mixture,
+    place: Place,
+    points: Array,
+    shares: Array,
+    bend: Array,
+) -> Means:
+    """Means over points of slopes (..., n, k, 2) with shares (..., n, k).
+
+    The variance per axis is .95 of the linear map's, 4 s^2 |axis1 x axis2|/rho (o.h) cos_h^3 with cos_h^-4
+    the product of |g|^2 of the pair. Where a sample's centre reflects the horizon, that is next to nothing:
+    half of the spread of what its points reflect, 1 - |M|/G, is the least.
+    """
+    light = reflect_slopes(omega_o[..., None, None, :], lobe, points, bend)
+    parts = [np.sum(shares * part, axis=-1) for part in (light.base, light.base * light.schlick)]
+    gains = blend_albedo(np.stack(parts, axis=-1), np.broadcast_to(as_array(lobe.r0), 3))
+    gain = np.sum(shares * light.grey, axis=-1)
+    mean = np.sum((shares * light.grey)[..., None] * light.omega_i, axis=-2)
+    # Where nothing is reflected, the mirror direction.
+    seen = gain > _SMALL
+    length = np.where(seen, np.linalg.norm(mean, axis=-1), 1.0)
+    mirror = omega_o[..., None, :] * [-1.0, -1.0, 1.0]
+    direction = np.where(seen[..., None], mean / length[..., None], mirror)
+
+    pair = _pair(omega_o, mixture, place)
+    middle = 0.5 * (pair.slope[..., 0, :] + pair.slope[..., 1, :])
+    product = np.maximum(dot(omega_o[..., None, :2], middle) + omega_o[..., None, 2], 0)
+    lengths = np.prod(1 + dot(pair.slope, pair.slope), axis=-1)
+    area = place.axis1[..., 0] * place.axis2[..., 1] - place.axis1[..., 1] * place.axis2[..., 0]
+    linear = 4 * mixture.s**2 * (np.abs(area) / place.rho)[..., None] * product / lengths
+    spread = np.where(seen, np.maximum(1 - length / np.where(seen, gain, 1.0), 0.0), 0.0)
+    # The map is far from linear where it makes more than the sphere holds.
+    variance = np.clip(np.maximum(VARIANCE_SHARE * linear, LEAST_SPREAD_SHARE * spread), 1e-20, 1.0)
+    return Means(mixture.w[..., None] * gains, direction, variance)
 
 
-def corner_means(omega_o: Array, lobe: LobeLike, mixture: Mixture, axes: Axes, stretch: Array) -> Means:
-    """Weight and direction of each sample from its centre and four corners.
+def mean_points(*, is_wide: bool) -> tuple[Array, Array]:
+    """Points (k, 2) of a mean, in deviations of a sample, and their shares.
 
-    With g = F cos_i^(1-alpha) cos_o^-alpha/cos_h, 0 below the horizon, G = E[g] and M = E[g omega_i]: the
-    direction is M/|M| with F over all channels, the weight G for each channel. The spread of the points'
-    directions, -ln(|M|/G), is no better a variance than the linear map's: it errs 5 to 25 % more.
+    They are a hexagonal grid, with the normal density there for shares. Seven are exact to the fifth degree;
+    wide lobes have 37: each that the horizon passes from one view to the next would be a step.
+    """
+    step, reach = (0.95, 2.9) if is_wide else (np.sqrt(2 * np.log(6)), np.sqrt(2 * np.log(6)))
+    i, j = np.meshgrid(np.arange(-6, 7), np.arange(-6, 7))
+    grid = step * np.stack([i + 0.5 * j, np.sqrt(0.75) * j], axis=-1).reshape(-1, 2)
+    grid = grid[dot(grid, grid) <= reach**2 + 1e-9]
+    share = np.exp(-0.5 * dot(grid, grid))
+    share /= np.sum(share)
+    return grid / np.sqrt(share @ grid[:, 0] ** 2), share
+
+
+def view_means(omega_o: Array, lobe: LobeLike, mixture: Mixture, place: Place) -> Means:
+    """Weight and direction of each sample from points over it.
+
+    With g = F cos_i^(1-alpha) cos_o^-alpha/cos_h times the lobe's density over the mixture's, 0 below the
+    horizon, G = E[g] and M = E[g omega_i]: the direction is M/|M| with F over all channels, the weight G for
+    each channel. In units y of the mixture's axes and p of roughness the densities' ratio is
+    |dp/dy| exp(|y|^2 - |p|^2).
 
     Parameters
     ----------
     omega_o : (..., 3)
         Local views.
-    axes : (a, b, v1, v2), (...) each
-        From `principal_axes`.
-    stretch : (...)
-        From `lobe_map`.
     """
-    a, b = axes[0][..., None], axes[1][..., None]
-    along, across = _unit_axes(lobe, axes)
-    y1 = mixture.y1[..., None] + (mixture.s * b / a)[..., None] * CORNER_POINTS[:, 0]
-    y2 = mixture.y2[..., None] + mixture.s[..., None] * CORNER_POINTS[:, 1]
-    slope = y1[..., None] * along[..., None, :] + y2[..., None] * across[..., None, :]
-    g = np.concatenate([slope, np.ones((*slope.shape[:-1], 1))], axis=-1)
-    gains, gain, mean = _sum_points(omega_o, lobe, g, CORNER_WEIGHTS, np.ones(1))
-    variance = _variance(omega_o, mixture, axes, stretch, _pair(omega_o, lobe, mixture, axes))
-    # The map is far from linear where it makes more than the sphere holds.
-    variance = np.minimum(variance, 1.0)
-    return Means(mixture.w[..., None] * gains, _mean_direction(omega_o, gain, mean), variance)
+    mx, my = slopes(lobe)
+    grid, shares = mean_points(is_wide=max(mx, my) > WIDE_SLOPE)
+    y1 = mixture.y1[..., None] + (mixture.s / place.rho[..., None])[..., None] * grid[:, 0]
+    y2 = mixture.y2[..., None] + mixture.s[..., None] * grid[:, 1]
+    points = _slopes_at(place, y1, y2)
+    p = points / [mx, my]
+    area = place.axis1[..., 0] * place.axis2[..., 1] - place.axis1[..., 1] * place.axis2[..., 0]
+    ratio = (area / (mx * my))[..., None, None] * np.exp(y1**2 + y2**2 - dot(p, p))
+    return _means(omega_o, lobe, mixture, place, points, shares * ratio, np.ones(1))
 
 
-def two_point_means(omega_o: Array, lobe: LobeLike, mixture: Mixture, axes: Axes, stretch: Array) -> Means:
+def two_point_means(omega_o: Array, lobe: LobeLike, mixture: Mixture, place: Place) -> Means:
     """Weight and direction of each sample of a narrow lobe from two points, one deviation to either side.
 
     Exact to second order in the product of weight and direction along h. Across it, along p, the reflection
     bends: on average q = 2 (o.g)/|g|^2 is shorter there by s^2 |p|^2.
-
-    Parameters
-    ----------
-    omega_o, axes, stretch
-        As of `corner_means`.
     """
-    pair = _pair(omega_o, lobe, mixture, axes)
+    pair = _pair(omega_o, mixture, place)
     bend = 1 - mixture.s**2 * dot(pair.p, pair.p)
-    gains, gain, mean = _sum_points(omega_o, lobe, pair.g, np.ones(2), bend[..., None])
-    variance = _variance(omega_o, mixture, axes, stretch, pair)
-    return Means(mixture.w[..., None] * gains, _mean_direction(omega_o, gain, mean), variance)
+    return _means(omega_o, lobe, mixture, place, pair.slope, np.full(2, 0.5), bend[..., None])

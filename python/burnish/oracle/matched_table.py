@@ -82,7 +82,7 @@ TABLE_ROWS = 1024
 #: Views of brushed lobes from the normal to the horizon; they are a grid over a square.
 VIEW_NODES = 128
 #: Larger aspects are placed at the view itself.
-MOST_VIEW_ASPECT = 8.0
+MOST_VIEW_ASPECT = 16.0
 
 
 def nearest_aspect(rho: npt.ArrayLike) -> Array:
@@ -107,25 +107,48 @@ def radius_cosine(radius: npt.ArrayLike) -> Array:
     return cosine
 
 
+def half_square(omega_o: npt.ArrayLike) -> tuple[Array, Array]:
+    """Place of local views on half of a square, and the side from which they were turned there.
+
+    Returns
+    -------
+    square : (..., 2)
+        (o_x, o_y) r/max(|o_x|, |o_y|), of views with o_y < 0 half a turn away: x is -1..1, y is 0..1.
+    side : (..., 1)
+        -1 where the view was turned, else 1.
+    """
+    omega_o = as_array(omega_o)
+    plane = omega_o[..., :2]
+    side = np.where(plane[..., 1:] < 0, -1.0, 1.0)
+    largest = np.max(np.abs(plane), axis=-1, keepdims=True)
+    radius = view_radius(omega_o[..., 2])[..., None]
+    return side * plane * radius / np.where(largest > 0, largest, 1.0), side
+
+
+def view_at(square: Array) -> Array:
+    """Local view (..., 3) at a place (..., 2) of the square, its cosine at least 1e-4."""
+    seen = np.any(square != 0, axis=-1, keepdims=True)
+    view = _view(np.max(np.abs(square), axis=-1), np.where(seen, square, [1.0, 0.0]))
+    return np.where(seen, view, [0.0, 0.0, 1.0])
+
+
+def _view(radius: Array, plane: Array) -> Array:
+    cosine = radius_cosine(radius)[..., None]
+    along = plane / np.linalg.norm(plane, axis=-1, keepdims=True)
+    return np.concatenate([along * np.sqrt(1 - cosine**2), cosine], axis=-1)
+
+
 def nearest_view(omega_o: npt.ArrayLike, *, is_round: bool) -> Array:
     """Local view of the nearest row of a table by view, its cosine at least 1e-4; (..., 3).
 
-    Round lobes have rows for radii alone: the azimuth stays. Views of brushed ones lie on a square, at
-    (o_x, o_y) r/max(|o_x|, |o_y|), and half of a grid over it has rows: a view from the other side has those
-    of the opposite view, half a turn away.
+    Round lobes have rows for radii alone: the azimuth stays. Brushed ones have rows for a grid over half of a
+    square.
     """
     omega_o = as_array(omega_o)
-    radius, plane = view_radius(omega_o[..., 2]), omega_o[..., :2]
-    if is_round:
-        radius = np.floor(radius * (TABLE_ROWS - 1) + 0.5) / (TABLE_ROWS - 1)
-    else:
-        side = np.where(plane[..., 1:] < 0, -1.0, 1.0)
-        largest = np.max(np.abs(plane), axis=-1, keepdims=True)
-        square = side * plane * radius[..., None] / np.where(largest > 0, largest, 1.0)
-        node = np.floor(square * (VIEW_NODES - 1) + 0.5) / (VIEW_NODES - 1)
-        radius, plane = np.max(np.abs(node), axis=-1), side * node
-    length = np.linalg.norm(plane, axis=-1, keepdims=True)
+    square, side = half_square(omega_o)
+    if not is_round:
+        return view_at(side * (np.floor(square * (VIEW_NODES - 1) + 0.5) / (VIEW_NODES - 1)))
+    radius = np.floor(view_radius(omega_o[..., 2]) * (TABLE_ROWS - 1) + 0.5) / (TABLE_ROWS - 1)
+    seen = np.any(omega_o[..., :2] != 0, axis=-1, keepdims=True)
     # A view along the normal has no azimuth: the first axis serves.
-    plane = np.where(length > 0, plane, [1.0, 0.0]) / np.where(length > 0, length, 1.0)
-    cosine = radius_cosine(radius)[..., None]
-    return np.concatenate([plane * np.sqrt(1 - cosine**2), cosine], axis=-1)
+    return _view(radius, np.where(seen, omega_o[..., :2], [1.0, 0.0]))

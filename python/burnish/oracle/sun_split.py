@@ -17,6 +17,8 @@ MOST_SUNS = 4
 _LEAST_CONTRAST = 100.0
 # Radius of the cap that holds a sun, radians: 1 degree, at least 4 half-texels. The ring around is as wide.
 _CAP_RADIUS, _CAP_HALF_TEXELS = np.radians(1.0), 4.0
+# Of h_z, what a deviation of the sun may change it by in a linear change of slope.
+_MOST_STEP = 0.1
 # What the ring may exceed the background by, relative to the sun's peak.
 _RING_EXCESS = 0.02
 
@@ -81,7 +83,8 @@ def shade_suns(suns: Sequence[Sun], frame: LocalFrame, lobe: LobeLike) -> Array:
 
     A variance v of directions is v/4 of half-vectors in the plane of view and light, and v/(4 (o.h)^2) across
     it, which at grazing views is much more. A step dh changes a slope s = h_xy/hz by (dh_xy - s dh_z)/hz; the
-    lobe's slopes have the covariance diag(m^2)/2.
+    lobe's slopes have the covariance diag(m^2)/2. Of dh_z/hz no more than a tenth counts: where the
+    half-vector lies along the surface, the linear change would give it the slopes of all others.
 
     Returns
     -------
@@ -116,8 +119,11 @@ def _sunlit_density(
     along = np.cross(across, h)
     slope = h[..., :2] / h[..., 2:]
     scale = 0.5 * np.sqrt(variance) / h[..., 2]
-    x1, y1 = np.moveaxis(scale[..., None] * (along[..., :2] - slope * along[..., 2:]), -1, 0)
-    x2, y2 = np.moveaxis((scale / o_h)[..., None] * (across[..., :2] - slope * across[..., 2:]), -1, 0)
+    steps = scale[..., None] * along, (scale / o_h)[..., None] * across
+    (x1, y1), (x2, y2) = (
+        np.moveaxis(step[..., :2] - slope * np.clip(step[..., 2:], -_MOST_STEP, _MOST_STEP), -1, 0)
+        for step in steps
+    )
     own_x, own_y = 0.5 * roughness[0] ** 2, 0.5 * roughness[1] ** 2
     # Of the covariance; every term is positive, nothing cancels.
     determinant = own_x * own_y + own_x * (y1**2 + y2**2) + own_y * (x1**2 + x2**2) + (x1 * y2 - y1 * x2) ** 2
