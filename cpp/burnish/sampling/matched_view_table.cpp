@@ -48,8 +48,7 @@ Place place_over(const MatchedLobe& lobe, glm::dvec3 omega_o, glm::dvec2 e, cons
     const bool is_round = view_columns(lobe) == 1;
     const glm::dvec2 roughness(lobe.roughness_x, lobe.roughness_y);
     const double share = moment_share(lobe);
-    const glm::dvec3 doubled =
-        2.0 * share * moments.covariance + (1.0 - share) * glm::dvec3(1.0, 0.0, 1.0);
+    const glm::dvec3 doubled = 2.0 * share * moments.covariance + (1.0 - share) * glm::dvec3(1.0, 0.0, 1.0);
     const double determinant = std::sqrt(doubled.x * doubled.z - doubled.y * doubled.y);
     const double scale = 1.0 / std::sqrt(doubled.x + doubled.z + 2.0 * determinant);
     const glm::dmat2 columns(roughness * scale * glm::dvec2(doubled.x + determinant, doubled.y),
@@ -94,7 +93,8 @@ std::vector<Point> hexagon_points(double step, double reach) {
             second += share * x * x;
         }
     for (Point& point : points)
-        point = {point.x * std::sqrt(shares / second), point.y * std::sqrt(shares / second), point.share / shares};
+        point = {point.x * std::sqrt(shares / second), point.y * std::sqrt(shares / second),
+                 point.share / shares};
     return points;
 }
 
@@ -136,8 +136,8 @@ public:
         const Mean mean = mean_of(y, mixture.z);
         if (mean.gain < LEAST_GAIN) return {glm::vec4(0.0f), 0.0f};
         const double length = glm::length(mean.direction);
-        const double variance =
-            std::clamp(shared::MATCHED_LEAST_SPREAD_SHARE * (1.0 - length / mean.gain), linear_variance(y, mixture.z), 1.0);
+        const double variance = std::clamp(shared::MATCHED_LEAST_SPREAD_SHARE * (1.0 - length / mean.gain),
+                                           linear_variance(y, mixture.z), 1.0);
         const glm::dvec3 half_vector = mean.direction / length + omega_o_;
         const glm::dvec2 h = glm::dvec2(half_vector) / half_vector.z;
         // The cosine that the kernel puts back in.
@@ -188,7 +188,7 @@ private:
     glm::dvec3 omega_o_;
     std::span<const Point> points_;
     Place place_;
-    glm::dvec2 offset_; ///< that kernels add to slopes
+    glm::dvec2 offset_;   ///< that kernels add to slopes
     glm::dvec2 steepest_; ///< slope of one deviation of s = 1 along which cos_i changes most
     double area_;         ///< |axis1 x axis2|
 };

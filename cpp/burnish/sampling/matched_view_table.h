@@ -44,11 +44,11 @@ uint64_t view_table_entries(const MatchedLobe& lobe);
 /// of view (x, y)/|(x, y)| in the lobe's axes. That is half of the disc of views on half of a square, which
 /// has no pole; a view from the other side has the same samples half a turn away.
 ///
-/// An entry is (x, y, weight, level): the lookup goes to where the half-vector of slope s = (x, y) + d (o_x, o_y)
-/// mirrors the view o of a point, in the lobe's axes, or, of a round lobe, along the plane of view and across it,
-/// d the lobe's drift; its weight is still to be multiplied by ((1 + |s|^2) cos_i)^(1-alpha). What is left of both
-/// vary less from view to view than directions and weights do, so that the nearest row will do. A Schlick
-/// term is the mean of (1 - o.h)^5 over a component.
+/// An entry is (x, y, weight, level): the lookup goes to where the half-vector of slope s = (x, y) + d (o_x,
+/// o_y) mirrors the view o of a point, in the lobe's axes, or, of a round lobe, along the plane of view and
+/// across it, d the lobe's drift; its weight is still to be multiplied by ((1 + |s|^2) cos_i)^(1-alpha). What
+/// is left of both vary less from view to view than directions and weights do, so that the nearest row will
+/// do. A Schlick term is the mean of (1 - o.h)^5 over a component.
 std::vector<glm::vec4> build_matched_view_table(const MatchedLobe& lobe);
 
 } // namespace burnish

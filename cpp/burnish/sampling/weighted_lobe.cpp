@@ -69,12 +69,11 @@ SquareView view_of_square(glm::dvec2 square) {
     const double radius = std::max(std::abs(square.x), std::abs(square.y));
     const double root = 0.5 * (std::sqrt(9.0 - 8.0 * radius * radius) - 1.0);
     // Along the normal there is no plane of view: the first axis serves.
-    return {std::max(root * root, LEAST_COS_O),
-            radius > 0.0 ? glm::normalize(square) : glm::dvec2(1.0, 0.0)};
+    return {std::max(root * root, LEAST_COS_O), radius > 0.0 ? glm::normalize(square) : glm::dvec2(1.0, 0.0)};
 }
 
 double moment_share(const MatchedLobe& lobe) {
-    return shared::MATCHED_MOMENT_SHARE * std::exp(-0.5 * lobe.roughness_x * lobe.roughness_y);
+    return shared::MATCHED_MOMENT_SHARE * std::exp(-lobe.roughness_x * lobe.roughness_y);
 }
 
 glm::vec2 lobe_drift(const MatchedLobe& lobe) {
@@ -97,7 +96,9 @@ WeightedLobe::WeightedLobe(const MatchedLobe& lobe) : is_round_(view_columns(lob
     });
 }
 
-Moments WeightedLobe::node(int x, int y) const { return nodes_[size_t(y * (2 * LAST + 1) + x + LAST)]; }
+Moments WeightedLobe::node(int x, int y) const {
+    return nodes_[size_t(y * (2 * LAST + 1) + x + LAST)];
+}
 
 Moments WeightedLobe::at(glm::dvec2 square) const {
     const glm::dvec2 place = double(LAST) * square;
@@ -106,8 +107,8 @@ Moments WeightedLobe::at(glm::dvec2 square) const {
         return mix(nodes_[size_t(low)], nodes_[size_t(low) + 1], place.x - low);
     }
     const int x = std::min(int(std::floor(place.x)), LAST - 1), y = std::min(int(place.y), LAST - 1);
-    return mix(mix(node(x, y), node(x + 1, y), place.x - x), mix(node(x, y + 1), node(x + 1, y + 1), place.x - x),
-               place.y - y);
+    return mix(mix(node(x, y), node(x + 1, y), place.x - x),
+               mix(node(x, y + 1), node(x + 1, y + 1), place.x - x), place.y - y);
 }
 
 } // namespace burnish

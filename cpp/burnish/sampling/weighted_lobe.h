@@ -27,8 +27,8 @@ struct Moments {
     glm::dvec3 covariance; ///< xx, xy, yy
 };
 
-/// Cosine and plane of view (a unit vector in the lobe's axes) at a place of the square that views lie on, see
-/// build_matched_view_table.
+/// Cosine and plane of view (a unit vector in the lobe's axes) at a place of the square that views lie on,
+/// see build_matched_view_table.
 struct SquareView {
     double cos_o;
     glm::dvec2 e;

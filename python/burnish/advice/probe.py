@@ -7,8 +7,9 @@ was asked for as well, against a dense sampler, and the two are put together by 
 
     error^2 = (sum |c - s|^2 / sum |s|^2 on the large) (sum |c - t|^2 / sum |c - s|^2 on the small)
 
-with c the candidate, s the dense sampler, t the truth. Where s errs more than c, as it does under a small
-sun, c - s says nothing of c, and the small picture alone has to do.
+with c the candidate, s the dense sampler, t the truth. Where s errs more than c on the small one, as it does
+under a small sun, c - s says little of c, and the small picture has to do: but for a highlight that only the
+large one shows, where c is farther from s than s can be from the truth.
 """
 
 import math
@@ -38,6 +39,9 @@ HALF_DENSE = "importance:512:fibonacci"
 
 LEAST_PIXELS = 250
 """With fewer for the sum over every texel the ratio is chance: the dense sampler is better."""
+
+SURE = 2.0
+"""Errors of the dense sampler that a candidate may be away from it without a doubt about the candidate."""
 
 LARGEST_RATIO = 2.0
 """The dense sampler may err as much as the candidate, not more: a larger ratio is one pixel's chance."""
@@ -120,7 +124,7 @@ class Probe:
         self._most_terms = most_terms
         self._face_size = min(reduced_face_size(list(scene.materials)), largest_face_size(scene))
         self._can_sum = False
-        self._own_error: float | None = None
+        self._own_errors: dict[tuple[int, int], float] = {}
         self._coverage = 1.0
         self._small = self._large = scaled_size(size, SURVEY_PIXELS)
         self._truth: Frame | None = None
@@ -184,25 +188,31 @@ class Probe:
         if self._small == self._large and self._can_sum:
             return math.sqrt(exact / max(energy_of(truth), 1e-30))
         dense_small, dense_large = self._dense_pictures()
-        if self._can_sum and squared_distance(dense_small, truth) >= exact:
-            return math.sqrt(exact / max(energy_of(truth), 1e-30))
         proxy = squared_distance(self.draw(made, self._large), dense_large) / max(
             energy_of(dense_large), 1e-30
         )
+        if self._can_sum and squared_distance(dense_small, truth) >= exact:
+            of_small = math.sqrt(exact / max(energy_of(truth), 1e-30))
+            if math.sqrt(proxy) <= of_small:
+                return of_small
+            return max(of_small, math.sqrt(proxy) - SURE * self._dense_error(self._large))
         if not self._can_sum:
             # The dense sampler sees the same diffuse light, whose error is known.
-            return math.sqrt(proxy + self._dense_error() ** 2 + dense_large.report.diffuse_error**2)
+            own = self._dense_error(self._small)
+            return math.sqrt(proxy + own**2 + dense_large.report.diffuse_error**2)
         ratio = exact / max(squared_distance(small, dense_small), 1e-30)
         return math.sqrt(proxy * min(ratio, LARGEST_RATIO))
 
-    def _dense_error(self) -> float:
-        """Estimate the relative RMSE of the dense sampler, which then is the truth, from half its lookups."""
-        if self._own_error is None:
-            dense = self._dense_pictures()[0]
-            half = self.draw(sampler_from_text(HALF_DENSE), self._small)
+    def _dense_error(self, size: tuple[int, int]) -> float:
+        """Estimate the relative RMSE of the dense sampler in one of the pictures, from half its lookups."""
+        if size not in self._own_errors:
+            dense = self._dense_pictures()[0 if size == self._small else 1]
+            half = self.draw(sampler_from_text(HALF_DENSE), size)
             # Its error falls nearly as 1/n: what the two differ by is about that of the better one.
-            self._own_error = math.sqrt(squared_distance(half, dense) / max(energy_of(dense), 1e-30))
-        return self._own_error
+            self._own_errors[size] = math.sqrt(
+                squared_distance(half, dense) / max(energy_of(dense), 1e-30)
+            )
+        return self._own_errors[size]
 
     @property
     def truth(self) -> Frame:

@@ -82,7 +82,8 @@ def _along_plane(view: Array, near: Array, lobe: LobeLike) -> Array:
     if mx != my:
         return view[..., :2] - near[..., :2]
     sine, length = (np.linalg.norm(v[..., :2], axis=-1, keepdims=True) for v in (view, near))
-    return near[..., :2] * ((sine - length) / np.where(length > 0, length, 1.0))
+    moved: Array = near[..., :2] * ((sine - length) / np.where(length > 0, length, 1.0))
+    return moved
 
 
 def matched_lookups(

@@ -40,7 +40,7 @@ def moment_share(roughness: tuple[float, float]) -> float:
 
     Of wide lobes, whose moments change most with the view, it is less.
     """
-    return MOMENT_SHARE * math.exp(-0.5 * roughness[0] * roughness[1])
+    return MOMENT_SHARE * math.exp(-roughness[0] * roughness[1])
 
 
 @dataclass(frozen=True)
@@ -53,7 +53,7 @@ class Reflected:
     grey: Array  # F base, F over all channels
 
 
-def reflect_slopes(omega_o: Array, lobe: LobeLike, slope: Array, bend: npt.ArrayLike = 1.0) -> Reflected:
+def reflect_slopes(omega_o: Array, lobe: LobeLike, slope: Array, bend: Array | float = 1.0) -> Reflected:
     """Mirror local views (..., 3) at half-vectors g = (slope, 1), to bend 2 (o.g)/|g|^2 g - o."""
     g = np.concatenate([slope, np.ones((*slope.shape[:-1], 1))], axis=-1)
     length2, product = dot(g, g), dot(omega_o, g)

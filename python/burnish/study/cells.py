@@ -49,9 +49,18 @@ class Cell:
     environment: str
     samples: int
     matched: float
-    rival: float
-    rival_sampler: str
-    """Of all rivals the one that errs least."""
+    rivals: tuple[tuple[str, float], ...]
+    """Settings of the published samplers, and their errors."""
+
+    @property
+    def rival_sampler(self) -> str:
+        """Of all rivals the one that errs least."""
+        return min(self.rivals, key=lambda rival: rival[1])[0]
+
+    @property
+    def rival(self) -> float:
+        """The least error of a rival."""
+        return min(error for _, error in self.rivals)
 
     @property
     def ratio(self) -> float:
@@ -174,10 +183,34 @@ def judge(
                     _errors(shade(environment, material, sampler, *places, device=device), truth, groups)
                     for sampler in (_core.Matched(count), *others)
                 )
-                for band, best in enumerate(np.argmin(theirs, axis=0)):
-                    row = name, count, ours[band], theirs[best][band], str(others[best])
-                    cells.append(Cell(lobe_name, band, *row))
+                for band in range(len(BANDS)):
+                    errors = zip(map(str, others), (rival[band] for rival in theirs), strict=True)
+                    cells.append(Cell(lobe_name, band, name, count, ours[band], tuple(errors)))
     return cells
+
+
+def merge_kinds(cells: Iterable[Cell], kinds: Mapping[str, str]) -> list[Cell]:
+    """Cells of kinds of maps: geometric means of errors over a kind's maps, for every setting by itself.
+
+    Parameters
+    ----------
+    cells : iterable of Cell
+        Of single maps.
+    kinds : mapping
+        Kind of each map; it takes the place of the map's name.
+    """
+    groups: dict[tuple[str, int, str, int], list[Cell]] = {}
+    for cell in cells:
+        key = cell.lobe, cell.band, kinds[cell.environment], cell.samples
+        groups.setdefault(key, []).append(cell)
+    merged = []
+    for key, group in groups.items():
+        theirs = np.array([[error for _, error in cell.rivals] for cell in group])
+        names = (name for name, _ in group[0].rivals)
+        errors = zip(names, np.exp(np.mean(np.log(theirs), axis=0)).tolist(), strict=True)
+        ours = float(np.exp(np.mean(np.log([cell.matched for cell in group]))))
+        merged.append(Cell(*key, ours, tuple(errors)))
+    return merged
 
 
 def limit(lobe: _core.KurtLobe) -> float:
@@ -189,4 +222,7 @@ def limit(lobe: _core.KurtLobe) -> float:
 
 def as_rows(cells: Iterable[Cell]) -> list[dict[str, object]]:
     """For JSON."""
-    return [{**asdict(cell), "ratio": cell.ratio} for cell in cells]
+    return [
+        {**asdict(cell), "rival": cell.rival, "rival_sampler": cell.rival_sampler, "ratio": cell.ratio}
+        for cell in cells
+    ]

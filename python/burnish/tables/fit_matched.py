@@ -44,7 +44,7 @@ _MOMENT_WEIGHTS_OF_FEW = {2: 3.0, 3: 3.0, 4: 1.0, 5: 0.5}
 # Starts of each aspect.
 _DRAWS = 2
 # What a step of twice as many times the truth's is worth in the score, a mean of logarithms of errors.
-_STEP_WEIGHT = 1.0
+_STEP_WEIGHT = 2.0
 # The most samples whose centres are a pair and the middle.
 _MOST_ON_A_LINE = 3
 # Many unknowns take more iterations.

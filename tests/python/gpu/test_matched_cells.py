@@ -8,7 +8,7 @@ import pytest
 
 import burnish
 from burnish.environments import spots
-from burnish.study.cells import BANDS, LOBES, Cell, as_rows, band_points, judge, limit, rivals
+from burnish.study.cells import BANDS, LOBES, Cell, as_rows, band_points, judge, limit, merge_kinds, rivals
 
 # The second one lost with mixtures that fit the lobe alone, by 1.7 at grazing views.
 BRUSHED = {name: LOBES[name] for name in ("m .2/.075", "m .3/.06")}
@@ -44,10 +44,20 @@ def test_rivals_are_the_published_samplers_at_every_setting():
 
 
 def test_a_cell_knows_its_ratio_and_its_name():
-    cell = Cell("m .05", 0, "sky", 8, 0.3, 0.2, "Importance(...)")
+    cell = Cell("m .05", 0, "sky", 8, 0.3, (("Regular(...)", 0.4), ("Importance(...)", 0.2)))
     assert cell.ratio == pytest.approx(1.5)
+    assert cell.rival_sampler == "Importance(...)"
     assert cell.name == "m .05, cosine 0.005 to 0.1, sky, n = 8"
     assert as_rows([cell])[0]["ratio"] == pytest.approx(1.5)
+
+
+def test_cells_of_a_kind_are_geometric_means_of_every_setting():
+    # The rival of the kind is one setting: not each map's own best.
+    one = Cell("m .05", 0, "sky", 8, 0.1, (("a", 0.1), ("b", 0.4)))
+    other = Cell("m .05", 0, "noon", 8, 0.4, (("a", 0.9), ("b", 0.1)))
+    (cell,) = merge_kinds([one, other], {"sky": "suns", "noon": "suns"})
+    assert cell.environment == "suns" and cell.rival_sampler == "b"
+    assert cell.matched == pytest.approx(0.2) and cell.rival == pytest.approx(0.2)
 
 
 def test_long_lobes_may_lose_by_a_tenth():

@@ -1,5 +1,7 @@
 """Environments from arrays and from files."""
 
+import pickle
+
 import numpy as np
 import OpenEXR
 import pytest
@@ -28,6 +30,13 @@ def coloured_faces(size=8):
         faces[face] = [0.1 + 0.1 * face, 0.5, 1.0 - 0.1 * face]
         faces[face, 0, 1] = [2.0 + face, 0.0, 0.0]
     return faces
+
+
+def test_unpickled_arrays_are_taken():
+    # Their type is equal to float32, but not the same object.
+    faces = np.full((6, 4, 4, 3), 0.5, np.float32)
+    unpickled = pickle.loads(pickle.dumps(faces))
+    np.testing.assert_array_equal(Environment.from_faces(unpickled).faces, faces)
 
 
 def test_from_faces_keeps_them():
