@@ -209,9 +209,7 @@ class Probe:
             dense = self._dense_pictures()[0 if size == self._small else 1]
             half = self.draw(sampler_from_text(HALF_DENSE), size)
             # Its error falls nearly as 1/n: what the two differ by is about that of the better one.
-            self._own_errors[size] = math.sqrt(
-                squared_distance(half, dense) / max(energy_of(dense), 1e-30)
-            )
+            self._own_errors[size] = math.sqrt(squared_distance(half, dense) / max(energy_of(dense), 1e-30))
         return self._own_errors[size]
 
     @property

@@ -12,7 +12,7 @@ from .arrays import Array, as_array, dot, normalize
 from .cube_map import PaddedCube, pad_cube, sample_cube
 from .estimator import LocalFrame, local_frame
 from .kurt_lobe import LobeLike, slopes
-from .matched_means import Means, view_means, linear_place, two_point_means, weighted_place
+from .matched_means import Means, linear_place, two_point_means, view_means, weighted_place
 from .matched_table import (
     MOST_VIEW_ASPECT,
     closest_count,
