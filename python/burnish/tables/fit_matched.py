@@ -40,8 +40,8 @@ _FEW = 6
 # Weight of the moments; the fewest samples would else miss them by as much with either.
 _MOMENT_WEIGHT = 0.7
 _MOMENT_WEIGHTS_OF_FEW = {2: 3.0, 3: 3.0, 4: 1.0, 5: 0.5}
-# Added to the seed of the starts: of candidates whose errors are alike, ones that keep the lobe's covariance and
-# with which neighbouring pixels of wide round lobes differ little in test_neighbouring_views.py, which is chance.
+# Added to the seed of the starts: of candidates whose errors are alike, ones that keep the lobe's covariance
+# and with which neighbouring pixels of wide round lobes differ little, which is chance.
 _SEED_STEPS = {14: 1, 16: 1}
 # The most samples whose centres are a pair and the middle.
 _MOST_ON_A_LINE = 3

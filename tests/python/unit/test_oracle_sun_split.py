@@ -104,7 +104,7 @@ def test_a_sun_widens_the_lobe_as_the_mean_over_its_disc(roughness, cosine, rng)
 @pytest.mark.parametrize("height", [-0.002, 0.0001, 0.004, 0.01])
 @pytest.mark.parametrize("alpha", [0.0, 0.5])
 def test_a_sun_on_the_horizon_beside_the_plane_of_view_reflects_next_to_nothing(height, alpha):
-    # Its half-vector lies along the surface: by a linear change of slope the sun's width would reach the lobe.
+    # Its half-vector lies along the surface: a linear change of slope would reach the lobe from there.
     o, sun = normalize([-0.2612, -0.9652, 0.0076]), normalize([0.0453, 0.999, height])
     frame = local_frame([0, 0, 1.0], [1.0, 0, 0], o)
     light = [Sun(sun, np.ones(3), 1.7e-5)]
