@@ -2,7 +2,7 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 import numpy.typing as npt
@@ -12,7 +12,14 @@ from .arrays import Array, as_array, dot, normalize
 from .cube_map import PaddedCube, pad_cube, sample_cube
 from .estimator import LocalFrame, local_frame
 from .kurt_lobe import LobeLike, slopes
-from .matched_means import Means, linear_place, two_point_means, view_means, weighted_place
+from .matched_means import (
+    Means,
+    corner_means,
+    linear_place,
+    two_point_means,
+    view_means,
+    weighted_place,
+)
 from .matched_table import (
     MOST_VIEW_ASPECT,
     closest_count,
@@ -34,6 +41,10 @@ SPHERICAL_VARIANCE = 0.85
 _LEAST_LIT = 1e-8
 
 
+#: Samples are placed for every view of a table, or at every point with two points a sample, or with five.
+Placement = Literal["view", "point", "wide point"]
+
+
 @dataclass(frozen=True)
 class Matched:
     """Settings of the fitted mixtures, as `burnish.Matched`."""
@@ -41,6 +52,7 @@ class Matched:
     samples: int = 14
     split_suns: bool = True
     diffuse: str = "cube"
+    placement: Placement | None = None  # None: as of lobes that no texture varies
 
 
 @dataclass(frozen=True)
@@ -62,18 +74,27 @@ def spherical_level(variance: npt.ArrayLike, face_texels: int) -> Array:
     return np.where(share < 1, share, 1 + 0.5 * np.log2(np.maximum(share, 1)))
 
 
-def has_view_table(lobe: LobeLike) -> bool:
-    """Whether samples are placed once for every view of a table, else at every point."""
+_PLACEMENTS: dict[Placement, Any] = {
+    "view": (weighted_place, view_means),
+    "point": (linear_place, two_point_means),
+    "wide point": (linear_place, corner_means),
+}
+
+
+def placement_of(lobe: LobeLike) -> Placement:
+    """How samples of a lobe are placed that no texture varies."""
     mx, my = slopes(lobe)
-    return max(mx, my) <= MOST_VIEW_ASPECT * min(mx, my)
+    return "view" if max(mx, my) <= MOST_VIEW_ASPECT * min(mx, my) else "point"
 
 
-def place_means(omega_o: Array, lobe: LobeLike, samples: int, rows: Array) -> Means:
+def place_means(
+    omega_o: Array, lobe: LobeLike, samples: int, rows: Array, placement: Placement | None = None
+) -> Means:
     """Means of every sample at local views."""
-    by_view = has_view_table(lobe)
-    place = weighted_place(omega_o, lobe) if by_view else linear_place(omega_o, lobe)
-    mixture = mixture_at(rows, samples, nearest_aspect(place.rho))
-    return (view_means if by_view else two_point_means)(omega_o, lobe, mixture, place)
+    place_of, means_of = _PLACEMENTS[placement or placement_of(lobe)]
+    place = place_of(omega_o, lobe)
+    means: Means = means_of(omega_o, lobe, mixture_at(rows, samples, nearest_aspect(place.rho)), place)
+    return means
 
 
 def _along_plane(view: Array, near: Array, lobe: LobeLike) -> Array:
@@ -87,7 +108,12 @@ def _along_plane(view: Array, near: Array, lobe: LobeLike) -> Array:
 
 
 def matched_lookups(
-    frame: LocalFrame, lobe: LobeLike, samples: int, rows: Array, face_texels: int
+    frame: LocalFrame,
+    lobe: LobeLike,
+    samples: int,
+    rows: Array,
+    face_texels: int,
+    placement: Placement | None = None,
 ) -> Lookups:
     """Place the mixture of one count at surface points (maths.md, section 6).
 
@@ -98,9 +124,9 @@ def matched_lookups(
     """
     mx, my = slopes(lobe)
     view = frame.omega_o
-    if has_view_table(lobe):
+    if (placement or placement_of(lobe)) == "view":
         near = nearest_view(view, is_round=mx == my)
-        means = place_means(near, lobe, samples, rows)
+        means = place_means(near, lobe, samples, rows, "view")
         half = near[..., None, :] + means.direction
         moved = (lobe_drift(lobe) * _along_plane(view, near, lobe))[..., None, :]
         slope = half[..., :2] / half[..., 2:] + moved
@@ -109,7 +135,7 @@ def matched_lookups(
         lit, near_lit = (np.maximum(i[..., 2], _LEAST_LIT) for i in (direction, means.direction))
         weight = means.gains * ((lit / near_lit) ** (1 - lobe.alpha))[..., None]
     else:
-        means = place_means(view, lobe, samples, rows)
+        means = place_means(view, lobe, samples, rows, placement)
         direction, weight = means.direction, means.gains
     level = spherical_level(means.variance, face_texels)
     last = 0.5 * np.log2(face_texels)
@@ -146,6 +172,7 @@ def shade_matched(
     omega_o: npt.ArrayLike,
     lobe: LobeLike,
     samples: int,
+    placement: Placement | None = None,
 ) -> Array:
     """Radiance of one lobe: sum w L/sum w times the directional albedo, exact under constant light; and suns.
 
@@ -165,7 +192,7 @@ def shade_matched(
     frame = local_frame(n, t, omega_o, lobe.rotation)
     count = closest_count(samples)
     rows, cube = load_table()[count], light_map.cube
-    lookups = matched_lookups(frame, lobe, count, rows, cube.face_texels)
+    lookups = matched_lookups(frame, lobe, count, rows, cube.face_texels, placement)
     radiance = sample_cube(cube, lookups.direction, lookups.level)
     total, weights = np.sum(lookups.weight * radiance, axis=-2), np.sum(lookups.weight, axis=-2)
     albedo = blend_albedo(directional_albedo(frame.omega_o, slopes(lobe), lobe.alpha), lobe.r0)

@@ -194,6 +194,17 @@ def view_means(omega_o: Array, lobe: LobeLike, mixture: Mixture, place: Place) -
     return _means(omega_o, lobe, mixture, place, points, shares * ratio, np.ones(1))
 
 
+def corner_means(omega_o: Array, lobe: LobeLike, mixture: Mixture, place: Place) -> Means:
+    """Weight and direction of each sample of a wide lobe from its centre and four corners at sqrt(1.2)
+    deviations: exact to the third degree.
+    """
+    corners = np.sqrt(1.2) * np.array([[0, 0], [1, 1], [1, -1], [-1, 1], [-1, -1]])
+    y1 = mixture.y1[..., None] + (mixture.s / place.rho[..., None])[..., None] * corners[:, 0]
+    y2 = mixture.y2[..., None] + mixture.s[..., None] * corners[:, 1]
+    shares = np.array([4, 5, 5, 5, 5]) / 24
+    return _means(omega_o, lobe, mixture, place, _slopes_at(place, y1, y2), shares, np.ones(1))
+
+
 def two_point_means(omega_o: Array, lobe: LobeLike, mixture: Mixture, place: Place) -> Means:
     """Weight and direction of each sample of a narrow lobe from two points, one deviation to either side.
 

@@ -13,7 +13,7 @@ from .estimator import local_frame, shade_importance, shade_regular
 from .importance import importance_half_vectors
 from .irradiance import DiffuseForm, diffuse_light
 from .kurt_lobe import LobeLike
-from .matched import MatchedMap, read_matched, shade_matched
+from .matched import MatchedMap, Placement, read_matched, shade_matched
 from .prefiltered import shade_prefiltered
 from .reference import shade_reference
 from .regular_pattern import choose_pattern
@@ -51,12 +51,18 @@ def shade_lobe(
 
 
 def shade_matched_lobes(
-    light_map: MatchedMap, material: Any, samples: int, normals: Array, tangents: Array, views: Array
+    light_map: MatchedMap,
+    material: Any,
+    samples: int,
+    normals: Array,
+    tangents: Array,
+    views: Array,
+    placement: Placement | None = None,
 ) -> Array:
     """Radiance of all lobes of a material from a map that has been read for `matched`, (..., 3)."""
     total = np.zeros(normals.shape)
     for lobe in material.lobes:
-        light = shade_matched(light_map, normals, tangents, views, lobe, samples)
+        light = shade_matched(light_map, normals, tangents, views, lobe, samples, placement)
         total = total + light * conserving_scale(normals, tangents, views, lobe)
     return total
 
@@ -99,7 +105,10 @@ def shade(
             total = total + light * conserving_scale(normals, tangents, views, lobe)
     elif material.lobes and type(sampler).__name__ == "Matched":
         light_map = read_matched(env_levels, sampler)
-        total = total + shade_matched_lobes(light_map, material, sampler.samples, normals, tangents, views)
+        placement = getattr(sampler, "placement", None)
+        total = total + shade_matched_lobes(
+            light_map, material, sampler.samples, normals, tangents, views, placement
+        )
     elif material.lobes:
         cube = pad_cube(env_levels)
         shade_one = shade_prefiltered if type(sampler).__name__ == "Prefiltered" else shade_lobe

@@ -5,6 +5,7 @@ import pytest
 
 import burnish
 from burnish.oracle.frame import facing_normal
+from burnish.oracle.matched import Matched
 from burnish.oracle.metallic_roughness import Material, MetallicRoughness, map_metallic_roughness
 from burnish.oracle.shading import shade as oracle_shade
 from burnish.oracle.tangent_space import mapped_normal
@@ -45,6 +46,9 @@ def coat_lobe(weight, perceptual):
 def expected_color(device, environment, sampler, view, layers):
     """Sum of (material, normal) pairs."""
     levels = levels_of(device, environment, sampler)
+    if isinstance(sampler, burnish.Matched):
+        # Of textured materials, samples are placed at every point.
+        sampler = Matched(sampler.samples, placement="wide point")
     parts = []
     for material, normal in layers:
         tangent = [normal[2], 0.0, -normal[0]]  # round lobes lie in the frame along growing longitude
