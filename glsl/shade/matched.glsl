@@ -114,8 +114,8 @@ struct Component {
 // below level 1 the mix of both has that share of level 1.
 float spherical_level(float share) { return share > 1.0 ? 1.0 + 0.5 * log2(share) : share; }
 
-// `share`: of the linear map, see spherical_level; at least half of the spread of what the points reflect, 1 - |M|/G, which is more
-// where the centre reflects the horizon.
+// `share` is the linear map's, see spherical_level. Half of the spread of what the points reflect, 1 - |M|/G, is the least:
+// it is more where the centre reflects the horizon.
 Lookup finish_component(LobeView v, MixtureView view, Component component, float weight, float share) {
     Lookup lookup;
     float spread = 1.0 - length(component.direction) / component.gain;

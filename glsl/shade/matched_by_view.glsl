@@ -9,11 +9,11 @@
 struct TableView {
     vec3 axis1, axis2; // environment space, unit, across the normal
     vec2 o;            // the view along them
-    vec2 offset;       // of all slopes: their drift with the view
+    vec2 offset;       // drift of all slopes with the view
     int row;
 };
 
-TableView view_of_table(LobeView v, uint columns, vec2 drift) {
+TableView view_of_table(LobeView v, uint columns) {
     // 0 along the normal, 1 at the horizon; rows are even in it.
     float cos_o = clamp(v.local_o.z, 0.0, 1.0);
     float radius = sqrt(max(1.0 - 0.5 * (cos_o + sqrt(cos_o)), 0.0));
@@ -24,7 +24,6 @@ TableView view_of_table(LobeView v, uint columns, vec2 drift) {
         view.axis1 = side * v.frame[0];
         view.axis2 = side * v.frame[1];
         view.o = side * v.local_o.xy;
-        view.offset = drift * view.o;
         // The disc of views on a square: along a ray from the middle, the normal, to the edge, the horizon.
         const float last = float(MATCHED_VIEW_NODES - 1u);
         vec2 node = view.o * (last * radius / max(max(abs(view.o.x), view.o.y), 1e-20)) + vec2(last + 0.5, 0.5);
@@ -35,7 +34,6 @@ TableView view_of_table(LobeView v, uint columns, vec2 drift) {
     view.axis1 = plane.x * v.frame[0] + plane.y * v.frame[1];
     view.axis2 = plane.x * v.frame[1] - plane.y * v.frame[0];
     view.o = vec2(plane.z, 0.0);
-    view.offset = drift * view.o;
     view.row = int(radius * float(MATCHED_ROWS - 1u) + 0.5);
     return view;
 }
@@ -65,7 +63,8 @@ Lookup place_by_view(LobeView v, TableView view, vec4 entry, float schlick) {
 LobeSums gather_by_view(LobeView v, uint table_begin, uint columns, uint drift) {
     LobeSums sums = LobeSums(vec3(0.0), vec3(0.0), 0.0, 0.0, 0.0);
     const uint entries = SAMPLE_COUNT + (HAS_FRESNEL ? (SAMPLE_COUNT + 3u) / 4u : 0u);
-    TableView view = view_of_table(v, columns, unpackHalf2x16(drift));
+    TableView view = view_of_table(v, columns);
+    view.offset = unpackHalf2x16(drift) * view.o;
     int row = int(table_begin) + int(entries) * view.row;
     vec4 schlick = vec4(0.0);
     Lookup l0, l1, l2, l3;

@@ -6,5 +6,6 @@
 #include "shade/shade.glsl"
 
 vec3 look_up_lobe(LobeView v, SurfaceLobe lobe, LobeRecord record, vec2 albedo, MapRecord map) {
-    return finish_lobe(v, gather_by_view(v, record.table_begin, record.view_columns, record.view_drift), lobe.specular, lobe.grazing, albedo);
+    LobeSums sums = gather_by_view(v, record.table_begin, record.view_columns, record.view_drift);
+    return finish_lobe(v, sums, lobe.specular, lobe.grazing, albedo);
 }

@@ -8,7 +8,7 @@
 layout(constant_id = SPEC_SUN_COUNT) const uint SUN_COUNT = 0u;
 const float SUN_MOST_STEP = 0.1414214; // of sqrt(2) deviations
 
-// What a step of the half-vector changes its slope by. Of steps that change h.z by more than a tenth that is no longer so: they would give
+// A step of the half-vector changes its slope by this. No more of its change of h.z than a tenth counts: more would give
 // a half-vector along the surface the slopes of all others.
 vec2 slope_step(vec3 step, vec2 slope) { return step.xy - slope * clamp(step.z, -SUN_MOST_STEP, SUN_MOST_STEP); }
 

@@ -39,10 +39,11 @@ SHARED_CONST uint MATCHED_VIEW_NODES = 128u;
 SHARED_CONST float MATCHED_MOST_VIEW_ASPECT = 16.0f;
 // Of the linear map's variance, what a component of a mixture has.
 SHARED_CONST float MATCHED_VARIANCE_SHARE = 0.95f;
-// Of the spread of what its points reflect, what a component's variance is at least: one whose centre reflects the horizon.
+// A component's variance is at least this share of the spread of what its points reflect; the linear map leaves next to
+// nothing of one whose centre reflects the horizon.
 SHARED_CONST float MATCHED_LEAST_SPREAD_SHARE = 0.5f;
-// Mixtures by view follow the mean and covariance of what is reflected of a narrow lobe so far of the way, see moment_share. Moments
-// are summed at a grid of views with so many from the normal to the horizon.
+// Mixtures by view follow the mean and covariance of what is reflected of a narrow lobe so far of the way, see
+// moment_share. Moments are summed at a grid of views with so many from the normal to the horizon.
 SHARED_CONST float MATCHED_MOMENT_SHARE = 0.8f;
 SHARED_CONST uint MATCHED_MOMENT_NODES = 32u;
 // Lobes of greater slopes have means over many points.

@@ -36,7 +36,7 @@ TEST(MatchedTable, RowsAreEvenInTheLogOfTheAspect) {
 
 TEST(MatchedViewTable, AViewAlongTheNormalReflectsAroundIt) {
     const MatchedLobe lobe{8, 0.2f, 0.2f, 0.5f, 0.04f, 0.96f, true, 64};
-    const std::vector<glm::vec4> table = build_matched_view_table(lobe);
+    const std::vector<glm::vec4> table = build_matched_view_table(lobe).entries;
     const uint32_t entries = view_row_entries(lobe);
     ASSERT_EQ(entries, 10u);
     ASSERT_EQ(table.size(), size_t(shared::MATCHED_ROWS) * entries);
@@ -59,7 +59,7 @@ const glm::vec4* row_at(const std::vector<glm::vec4>& table, const MatchedLobe& 
 
 TEST(MatchedViewTable, ViewsFromBothSidesAlongAnAxisHaveTheSameSamples) {
     const MatchedLobe lobe{.samples = 7, .roughness_x = 0.2f, .roughness_y = 0.075f};
-    const std::vector<glm::vec4> table = build_matched_view_table(lobe);
+    const std::vector<glm::vec4> table = build_matched_view_table(lobe).entries;
     const size_t nodes = shared::MATCHED_VIEW_NODES;
     ASSERT_EQ(table.size(), nodes * (2 * nodes - 1) * view_row_entries(lobe));
     for (const int x : {1, 20, 60, 127}) {
@@ -79,8 +79,8 @@ TEST(MatchedViewTable, ABarelyBrushedLobeHasTheRoundOnesWeights) {
     const MatchedLobe round{.samples = 5, .roughness_x = 0.3f, .roughness_y = 0.3f};
     MatchedLobe brushed = round;
     brushed.roughness_x = 0.3001f;
-    const std::vector<glm::vec4> one = build_matched_view_table(round),
-                                 other = build_matched_view_table(brushed);
+    const std::vector<glm::vec4> one = build_matched_view_table(round).entries,
+                                 other = build_matched_view_table(brushed).entries;
     const double radius = 67.0 / (shared::MATCHED_VIEW_NODES - 1); // between two rows of the round lobe
     const uint32_t row = uint32_t(radius * (shared::MATCHED_ROWS - 1) + 0.5);
     for (const glm::ivec2 node : {glm::ivec2(67, 0), {67, 33}, {20, 67}, {0, 67}})
@@ -96,7 +96,7 @@ TEST(MatchedViewTable, ABarelyBrushedLobeHasTheRoundOnesWeights) {
 
 TEST(MatchedViewTable, RowsAroundTheNormalDifferLittle) {
     const MatchedLobe lobe{.samples = 14, .roughness_x = 0.99f, .roughness_y = 0.124f};
-    const std::vector<glm::vec4> table = build_matched_view_table(lobe);
+    const std::vector<glm::vec4> table = build_matched_view_table(lobe).entries;
     const auto change = [&](int x, int y, int dx, int dy) {
         const glm::vec4 *one = row_at(table, lobe, x, y), *other = row_at(table, lobe, x + dx, y + dy);
         float largest = 0.0f;

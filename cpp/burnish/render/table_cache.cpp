@@ -38,7 +38,7 @@ SampleEntries TableCache::mixtures(uint32_t count) {
     return found;
 }
 
-SampleEntries TableCache::view_table(const MatchedLobe& lobe) {
+KeptViewTable TableCache::view_table(const MatchedLobe& lobe) {
     const auto found = view_tables_.find(lobe);
     if (found != view_tables_.end()) return found->second;
     if (view_entries_ + view_table_entries(lobe) > MOST_KEPT_VIEW_ENTRIES) {
@@ -46,9 +46,9 @@ SampleEntries TableCache::view_table(const MatchedLobe& lobe) {
         view_entries_ = 0;
     }
     view_entries_ += view_table_entries(lobe);
-    return view_tables_
-        .emplace(lobe, std::make_shared<std::vector<glm::vec4>>(build_matched_view_table(lobe)))
-        .first->second;
+    ViewTable table = build_matched_view_table(lobe);
+    KeptViewTable kept{std::make_shared<std::vector<glm::vec4>>(std::move(table.entries)), table.drift};
+    return view_tables_.emplace(lobe, std::move(kept)).first->second;
 }
 
 std::shared_ptr<const SampleBuffer> TableCache::sample_buffer(const vulkan::DevicePointer& device,

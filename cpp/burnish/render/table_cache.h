@@ -20,6 +20,11 @@ struct SampleBuffer {
     vulkan::ElementBuffer elements;
 };
 
+struct KeptViewTable {
+    SampleEntries entries;
+    uint32_t drift; ///< see ViewTable
+};
+
 class TableCache {
 public:
     /// Until the next table of the kind is asked for, as references below.
@@ -27,7 +32,7 @@ public:
     /// Of all round lobes, or of all brushed ones.
     const std::vector<glm::vec2>& varying_albedo(float alpha, bool is_brushed);
     SampleEntries mixtures(uint32_t count);
-    SampleEntries view_table(const MatchedLobe& lobe);
+    KeptViewTable view_table(const MatchedLobe& lobe);
     /// The tables one after the other, on the device: the last ones again if they are the same.
     std::shared_ptr<const SampleBuffer> sample_buffer(const vulkan::DevicePointer& device,
                                                       std::vector<SampleEntries> tables);
@@ -38,7 +43,7 @@ private:
     std::map<std::array<float, 3>, AlbedoTable> albedo_;
     std::map<std::pair<float, bool>, std::vector<glm::vec2>> varying_albedo_;
     std::map<uint32_t, SampleEntries> mixtures_;
-    std::map<MatchedLobe, SampleEntries> view_tables_;
+    std::map<MatchedLobe, KeptViewTable> view_tables_;
     uint64_t view_entries_ = 0; ///< of all view_tables_
     std::shared_ptr<const SampleBuffer> samples_;
 };

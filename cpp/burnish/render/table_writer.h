@@ -8,12 +8,9 @@
 #include <optional>
 #include <vector>
 
-#include <glm/gtc/packing.hpp>
-
 #include "burnish/plan/plan.h"
 #include "burnish/render/table_cache.h"
 #include "burnish/sampling/sample_table.h"
-#include "burnish/sampling/weighted_lobe.h"
 
 namespace burnish::render {
 
@@ -88,10 +85,14 @@ public:
             key.specular = std::clamp(specular / total, 1e-3f, 1.0f);
             key.grazing = 1.0f - key.specular;
         }
-        auto found = view_begins_.find(key);
-        if (found == view_begins_.end())
-            found = view_begins_.emplace(key, append(cache_.view_table(key))).first;
-        return {found->second, view_columns(key), glm::packHalf2x16(lobe_drift(key))};
+        auto found = view_ranges_.find(key);
+        if (found == view_ranges_.end()) {
+            const KeptViewTable table = cache_.view_table(key);
+            found =
+                view_ranges_.emplace(key, ViewRange{append(table.entries), view_columns(key), table.drift})
+                    .first;
+        }
+        return found->second;
     }
 
     /// First entry and azimuth nodes of the albedo table of a lobe of one roughness.
@@ -131,7 +132,7 @@ private:
     TableCache& cache_;
     uint32_t entry_count_ = 0;
     std::optional<uint32_t> mixtures_begin_;
-    std::map<MatchedLobe, uint32_t> view_begins_;
+    std::map<MatchedLobe, ViewRange> view_ranges_;
     std::map<std::array<float, 4>, SampleTable> tables_;
     std::map<std::pair<const SampleTable*, uint32_t>, Range> ranges_;
     std::map<std::array<float, 3>, Range> albedo_ranges_;

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <span>
+#include <utility>
+
+#include <glm/gtc/packing.hpp>
 
 #include "burnish/cores.h"
 #include "burnish/sampling/matched_table.h"
@@ -16,7 +19,7 @@ namespace {
 constexpr double LEAST_LIT = 1e-8;  ///< trace of a cosine that kernels leave below the horizon
 constexpr double LEAST_GAIN = 1e-9; ///< a component that reflects less lies below the horizon
 
-/// Where components of one view lie: a slope center + y1 axis1 + y2 axis2 is a half-vector n + slope.
+/// Components of one view lie here: a slope center + y1 axis1 + y2 axis2 is a half-vector n + slope.
 struct Place {
     glm::dvec2 center, axis1, axis2;
     double rho; ///< aspect of the axes once they are mirrored
@@ -33,7 +36,7 @@ glm::dmat2 reflection_map(glm::dvec3 omega_o, glm::dvec2 slope, const glm::dmat2
     const glm::dvec3 b = glm::cross(h, t);
     glm::dmat2 map;
     for (int k = 0; k < 2; ++k) {
-        // What lies along h of a change has no part along t and b.
+        // A change along h has no part along t and b.
         const glm::dvec3 change = glm::dvec3(columns[k], 0.0) / length;
         map[k] = {2.0 * glm::dot(t, change), 2.0 * o_h * glm::dot(b, change)};
     }
@@ -44,7 +47,7 @@ glm::dmat2 reflection_map(glm::dvec3 omega_o, glm::dvec2 slope, const glm::dmat2
 /// where it lies, S its covariance; principal axes of the reflection there are those of V of the singular
 /// value decomposition. Of round lobes they are the plane of view and across it, whichever is longer: around
 /// the normal of a wide one that changes, and a step would show.
-Place place_over(const MatchedLobe& lobe, glm::dvec3 omega_o, glm::dvec2 e, const Moments& moments) {
+Place place_over(const MatchedLobe& lobe, const SquareView& view, const Moments& moments) {
     const bool is_round = view_columns(lobe) == 1;
     const glm::dvec2 roughness(lobe.roughness_x, lobe.roughness_y);
     const double share = moment_share(lobe);
@@ -55,14 +58,15 @@ Place place_over(const MatchedLobe& lobe, glm::dvec3 omega_o, glm::dvec2 e, cons
                              roughness * scale * glm::dvec2(doubled.y, doubled.z + determinant));
     Place place;
     place.center = share * roughness * moments.mean;
-    const glm::dmat2 map = reflection_map(omega_o, place.center, columns);
+    const glm::dmat2 map = reflection_map(view.omega_o, place.center, columns);
+    const glm::dvec2 e = view.e;
     glm::dvec2 v1 = e;
     if (is_round) {
         place.rho = std::max(glm::length(map * e) / glm::length(map * glm::dvec2(-e.y, e.x)), 1.0);
     } else {
         const double p = glm::dot(map[0], map[0]), s = glm::dot(map[1], map[1]);
         const double off = glm::dot(map[0], map[1]), radius = std::hypot(0.5 * (p - s), off);
-        // Of equal axes every pair would do.
+        // Any pair of axes would do where they are equal.
         if (radius > 1e-12 * (p + s)) {
             const double angle = 0.5 * std::atan2(2.0 * off, p - s);
             v1 = {std::cos(angle), std::sin(angle)};
@@ -117,8 +121,8 @@ public:
     Row(const MatchedLobe& lobe, const WeightedLobe& weighted, glm::vec2 drift, glm::dvec2 square)
         : lobe_(lobe), points_(points_of(lobe)) {
         const SquareView view = view_of_square(square);
-        omega_o_ = glm::dvec3(std::sqrt(1.0 - view.cos_o * view.cos_o) * view.e, view.cos_o);
-        place_ = place_over(lobe, omega_o_, view.e, weighted.at(square));
+        omega_o_ = view.omega_o;
+        place_ = place_over(lobe, view, weighted.at(square));
         const glm::dvec2 o(omega_o_), narrow = place_.axis1 / place_.rho;
         const glm::dvec2 change(glm::dot(o, narrow), glm::dot(o, place_.axis2));
         const double steepness = glm::length(change);
@@ -227,7 +231,7 @@ uint64_t view_table_entries(const MatchedLobe& lobe) {
     return uint64_t(view_count(lobe)) * view_row_entries(lobe);
 }
 
-std::vector<glm::vec4> build_matched_view_table(const MatchedLobe& lobe) {
+ViewTable build_matched_view_table(const MatchedLobe& lobe) {
     const std::vector<glm::vec4> mixtures = matched_mixtures(lobe.samples);
     const uint32_t half = (lobe.samples + 1) / 2, entries = view_row_entries(lobe);
     const uint32_t columns = view_columns(lobe), lines = view_count(lobe) / columns;
@@ -251,7 +255,7 @@ std::vector<glm::vec4> build_matched_view_table(const MatchedLobe& lobe) {
         for (uint32_t column = 0; column < columns; ++column)
             place(uint32_t(line) * columns + column);
     });
-    return table;
+    return {std::move(table), glm::packHalf2x16(drift)};
 }
 
 } // namespace burnish

@@ -37,6 +37,11 @@ uint32_t view_row_entries(const MatchedLobe& lobe);
 
 uint64_t view_table_entries(const MatchedLobe& lobe);
 
+struct ViewTable {
+    std::vector<glm::vec4> entries;
+    uint32_t drift; ///< of slopes with the view, two halves: along and across
+};
+
 /// Rows for all views. They are even in a radius r, r^2 = 1 - (cos_o + sqrt(cos_o))/2: 0 along the normal,
 /// around which it is as the angle, and 1 at the horizon, toward which it is as sqrt(cos_o). Row j of a round
 /// lobe is for r = j/(MATCHED_ROWS-1). Those of a brushed lobe are a grid, columns innermost, over
@@ -49,6 +54,6 @@ uint64_t view_table_entries(const MatchedLobe& lobe);
 /// across it, d the lobe's drift; its weight is still to be multiplied by ((1 + |s|^2) cos_i)^(1-alpha). What
 /// is left of both vary less from view to view than directions and weights do, so that the nearest row will
 /// do. A Schlick term is the mean of (1 - o.h)^5 over a component.
-std::vector<glm::vec4> build_matched_view_table(const MatchedLobe& lobe);
+ViewTable build_matched_view_table(const MatchedLobe& lobe);
 
 } // namespace burnish

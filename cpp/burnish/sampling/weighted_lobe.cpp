@@ -19,11 +19,6 @@ constexpr double DRIFT_RADIUS = 0.125;
 constexpr double SUM_STEP = 0.25;
 constexpr int SUM_REACH = 12;
 
-glm::dvec3 view_at(glm::dvec2 square) {
-    const SquareView view = view_of_square(square);
-    return {std::sqrt(1.0 - view.cos_o * view.cos_o) * view.e, view.cos_o};
-}
-
 Moments sum_moments(const MatchedLobe& lobe, glm::dvec3 omega_o) {
     const glm::dvec2 roughness(lobe.roughness_x, lobe.roughness_y);
     double sum = 0.0;
@@ -39,7 +34,7 @@ Moments sum_moments(const MatchedLobe& lobe, glm::dvec3 omega_o) {
             first += value * p;
             second += value * glm::dvec3(p.x * p.x, p.x * p.y, p.y * p.y);
         }
-    // Of light that is nowhere, the lobe itself.
+    // The lobe itself serves where nothing is reflected.
     if (sum <= 0.0) return {glm::dvec2(0.0), glm::dvec3(0.5, 0.0, 0.5)};
     const glm::dvec2 mean = first / sum;
     return {mean, second / sum - glm::dvec3(mean.x * mean.x, mean.x * mean.y, mean.y * mean.y)};
@@ -69,7 +64,9 @@ SquareView view_of_square(glm::dvec2 square) {
     const double radius = std::max(std::abs(square.x), std::abs(square.y));
     const double root = 0.5 * (std::sqrt(9.0 - 8.0 * radius * radius) - 1.0);
     // Along the normal there is no plane of view: the first axis serves.
-    return {std::max(root * root, LEAST_COS_O), radius > 0.0 ? glm::normalize(square) : glm::dvec2(1.0, 0.0)};
+    const glm::dvec2 e = radius > 0.0 ? glm::normalize(square) : glm::dvec2(1.0, 0.0);
+    const double cos_o = std::max(root * root, LEAST_COS_O);
+    return {glm::dvec3(std::sqrt(1.0 - cos_o * cos_o) * e, cos_o), e};
 }
 
 double moment_share(const MatchedLobe& lobe) {
@@ -77,7 +74,8 @@ double moment_share(const MatchedLobe& lobe) {
 }
 
 glm::vec2 lobe_drift(const MatchedLobe& lobe) {
-    const glm::dvec3 along = view_at({DRIFT_RADIUS, 0.0}), across = view_at({0.0, DRIFT_RADIUS});
+    const glm::dvec3 along = view_of_square({DRIFT_RADIUS, 0.0}).omega_o;
+    const glm::dvec3 across = view_of_square({0.0, DRIFT_RADIUS}).omega_o;
     const double x = sum_moments(lobe, along).mean.x / along.x;
     const double y = view_columns(lobe) == 1 ? x : sum_moments(lobe, across).mean.y / across.y;
     const glm::dvec2 drift = moment_share(lobe) * glm::dvec2(lobe.roughness_x * x, lobe.roughness_y * y);
@@ -91,7 +89,7 @@ WeightedLobe::WeightedLobe(const MatchedLobe& lobe) : is_round_(view_columns(lob
         for (size_t column = 0; column < columns; ++column) {
             const glm::dvec2 place =
                 is_round_ ? glm::dvec2(line, 0.0) : glm::dvec2(double(column) - LAST, line);
-            nodes_[line * columns + column] = sum_moments(lobe, view_at(place / double(LAST)));
+            nodes_[line * columns + column] = sum_moments(lobe, view_of_square(place / double(LAST)).omega_o);
         }
     });
 }

@@ -1,4 +1,4 @@
-// Where a lobe lies once it is weighed by what it reflects.
+// A lobe lies elsewhere once it is weighed by what it reflects: this says where.
 #pragma once
 
 #include <optional>
@@ -10,7 +10,7 @@
 
 namespace burnish {
 
-/// What a half-vector reflects, in the lobe's axes.
+/// A half-vector reflects this, in the lobe's axes.
 struct Reflected {
     glm::dvec3 omega_i;
     double base;    ///< cos_i^(1-alpha)/cos_h
@@ -21,17 +21,16 @@ struct Reflected {
 /// The half-vector of a slope at a view; nothing below the horizon.
 std::optional<Reflected> reflect_slope(const MatchedLobe& lobe, glm::dvec3 omega_o, glm::dvec2 slope);
 
-/// Of slopes in units of roughness, in which the lobe's density is exp(-|p|^2)/pi.
+/// Moments are of slopes in units of roughness, in which the lobe's density is exp(-|p|^2)/pi.
 struct Moments {
     glm::dvec2 mean;
     glm::dvec3 covariance; ///< xx, xy, yy
 };
 
-/// Cosine and plane of view (a unit vector in the lobe's axes) at a place of the square that views lie on,
-/// see build_matched_view_table.
+/// A view at a place of the square that views lie on, see build_matched_view_table.
 struct SquareView {
-    double cos_o;
-    glm::dvec2 e;
+    glm::dvec3 omega_o;
+    glm::dvec2 e; ///< the plane of view, a unit vector in the lobe's axes
 };
 SquareView view_of_square(glm::dvec2 square);
 
@@ -39,8 +38,9 @@ SquareView view_of_square(glm::dvec2 square);
 /// wide lobes, whose moments change most with the view, it is less.
 double moment_share(const MatchedLobe& lobe);
 
-/// What the middle of a mixture moves by, as a slope along and across, for a unit of the view's o_x and o_y
-/// around the normal; each a half. Slopes less that differ least from one row of a table by view to the next.
+/// The middle of a mixture moves by this, a slope along and across, for a unit of the view's o_x and o_y
+/// around the normal; each is a half. Slopes less that differ least from one row of a table by view to the
+/// next.
 glm::vec2 lobe_drift(const MatchedLobe& lobe);
 
 /// Moments for all views: at grazing ones the horizon cuts a lobe, and the Fresnel factor pulls it there.

@@ -75,6 +75,17 @@ def squared_distance(one: Frame, other: Frame) -> float:
     return float(np.sum(difference**2))
 
 
+def relative_distance(one: Frame, other: Frame) -> float:
+    """Relative RMSE of one picture against another where the other shows objects.
+
+    Parameters
+    ----------
+    one, other : Frame
+        Of the same view and size.
+    """
+    return math.sqrt(squared_distance(one, other) / max(energy_of(other), 1e-30))
+
+
 def energy_of(frame: Frame) -> float:
     """Sum of squared radiance where objects are.
 
@@ -185,23 +196,21 @@ class Probe:
         made = sampler_from_text(sampler)
         small, truth = self.draw(made, self._small), self.truth
         exact = squared_distance(small, truth)
+        of_small = relative_distance(small, truth)
         if self._small == self._large and self._can_sum:
-            return math.sqrt(exact / max(energy_of(truth), 1e-30))
+            return of_small
         dense_small, dense_large = self._dense_pictures()
-        proxy = squared_distance(self.draw(made, self._large), dense_large) / max(
-            energy_of(dense_large), 1e-30
-        )
+        proxy = relative_distance(self.draw(made, self._large), dense_large)
         if self._can_sum and squared_distance(dense_small, truth) >= exact:
-            of_small = math.sqrt(exact / max(energy_of(truth), 1e-30))
-            if math.sqrt(proxy) <= of_small:
+            if proxy <= of_small:
                 return of_small
-            return max(of_small, math.sqrt(proxy) - SURE * self._dense_error(self._large))
+            return max(of_small, proxy - SURE * self._dense_error(self._large))
         if not self._can_sum:
             # The dense sampler sees the same diffuse light, whose error is known.
             own = self._dense_error(self._small)
-            return math.sqrt(proxy + own**2 + dense_large.report.diffuse_error**2)
+            return math.hypot(proxy, own, dense_large.report.diffuse_error)
         ratio = exact / max(squared_distance(small, dense_small), 1e-30)
-        return math.sqrt(proxy * min(ratio, LARGEST_RATIO))
+        return proxy * math.sqrt(min(ratio, LARGEST_RATIO))
 
     def _dense_error(self, size: tuple[int, int]) -> float:
         """Estimate the relative RMSE of the dense sampler in one of the pictures, from half its lookups."""
@@ -209,7 +218,7 @@ class Probe:
             dense = self._dense_pictures()[0 if size == self._small else 1]
             half = self.draw(sampler_from_text(HALF_DENSE), size)
             # Its error falls nearly as 1/n: what the two differ by is about that of the better one.
-            self._own_errors[size] = math.sqrt(squared_distance(half, dense) / max(energy_of(dense), 1e-30))
+            self._own_errors[size] = relative_distance(half, dense)
         return self._own_errors[size]
 
     @property

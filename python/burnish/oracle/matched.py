@@ -124,9 +124,10 @@ def matched_lookups(
     """
     mx, my = slopes(lobe)
     view = frame.omega_o
-    if (placement or placement_of(lobe)) == "view":
+    placement = placement or placement_of(lobe)
+    if placement == "view":
         near = nearest_view(view, is_round=mx == my)
-        means = place_means(near, lobe, samples, rows, "view")
+        means = place_means(near, lobe, samples, rows, placement)
         half = near[..., None, :] + means.direction
         moved = (lobe_drift(lobe) * _along_plane(view, near, lobe))[..., None, :]
         slope = half[..., :2] / half[..., 2:] + moved

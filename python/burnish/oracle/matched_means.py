@@ -8,7 +8,7 @@ from .albedo import blend_albedo
 from .arrays import Array, as_array, dot
 from .kurt_lobe import LobeLike, slopes
 from .lobe_map import lobe_map, principal_axes, reflection_map
-from .matched_table import Mixture
+from .matched_table import Mixture, plane_of_view
 from .weighted_lobe import lobe_moments, moment_share, reflect_slopes
 
 # Where less than this is reflected, the sample lies below the horizon.
@@ -30,6 +30,12 @@ class Place:
     axis1: Array
     axis2: Array
     rho: Array  # (...), aspect of the axes once they are mirrored: a sample is s/rho wide in y1, s in y2
+
+    @property
+    def area(self) -> Array:
+        """Parallelogram of the axes, axis1 x axis2."""
+        area: Array = self.axis1[..., 0] * self.axis2[..., 1] - self.axis1[..., 1] * self.axis2[..., 0]
+        return area
 
 
 @dataclass(frozen=True)
@@ -70,9 +76,7 @@ def weighted_place(omega_o: Array, lobe: LobeLike) -> Place:
     center, columns = center * roughness, root * roughness[:, None]
     mirrored = reflection_map(omega_o, center, columns)
     if mx == my:
-        length = np.linalg.norm(omega_o[..., :2], axis=-1)
-        seen = length > 0
-        v1, v2 = (np.where(seen, omega_o[..., k], 1.0 - k) / np.where(seen, length, 1.0) for k in (0, 1))
+        v1, v2 = np.moveaxis(plane_of_view(omega_o), -1, 0)
         along, across = (
             np.linalg.norm(np.einsum("...ij,...j->...i", mirrored, v), axis=-1)
             for v in (np.stack([v1, v2], axis=-1), np.stack([-v2, v1], axis=-1))
@@ -93,6 +97,13 @@ def _slopes_at(place: Place, y1: Array, y2: Array) -> Array:
         for v in (place.center, place.axis1, place.axis2)
     )
     return center + y1[..., None] * axis1 + y2[..., None] * axis2
+
+
+def _spread_over(mixture: Mixture, place: Place, points: Array) -> tuple[Array, Array]:
+    """Places y1 and y2, (..., n, k), of points (k, 2) in deviations of each sample."""
+    y1 = mixture.y1[..., None] + (mixture.s / place.rho[..., None])[..., None] * points[:, 0]
+    y2 = mixture.y2[..., None] + mixture.s[..., None] * points[:, 1]
+    return y1, y2
 
 
 @dataclass(frozen=True)
@@ -147,8 +158,7 @@ def _means(
     middle = 0.5 * (pair.slope[..., 0, :] + pair.slope[..., 1, :])
     product = np.maximum(dot(omega_o[..., None, :2], middle) + omega_o[..., None, 2], 0)
     lengths = np.prod(1 + dot(pair.slope, pair.slope), axis=-1)
-    area = place.axis1[..., 0] * place.axis2[..., 1] - place.axis1[..., 1] * place.axis2[..., 0]
-    linear = 4 * mixture.s**2 * (np.abs(area) / place.rho)[..., None] * product / lengths
+    linear = 4 * mixture.s**2 * (np.abs(place.area) / place.rho)[..., None] * product / lengths
     spread = np.where(seen, np.maximum(1 - length / np.where(seen, gain, 1.0), 0.0), 0.0)
     # The map is far from linear where it makes more than the sphere holds.
     variance = np.clip(np.maximum(VARIANCE_SHARE * linear, LEAST_SPREAD_SHARE * spread), 1e-20, 1.0)
@@ -185,12 +195,10 @@ def view_means(omega_o: Array, lobe: LobeLike, mixture: Mixture, place: Place) -
     """
     mx, my = slopes(lobe)
     grid, shares = mean_points(is_wide=max(mx, my) > WIDE_SLOPE)
-    y1 = mixture.y1[..., None] + (mixture.s / place.rho[..., None])[..., None] * grid[:, 0]
-    y2 = mixture.y2[..., None] + mixture.s[..., None] * grid[:, 1]
+    y1, y2 = _spread_over(mixture, place, grid)
     points = _slopes_at(place, y1, y2)
     p = points / [mx, my]
-    area = place.axis1[..., 0] * place.axis2[..., 1] - place.axis1[..., 1] * place.axis2[..., 0]
-    ratio = (area / (mx * my))[..., None, None] * np.exp(y1**2 + y2**2 - dot(p, p))
+    ratio = (place.area / (mx * my))[..., None, None] * np.exp(y1**2 + y2**2 - dot(p, p))
     return _means(omega_o, lobe, mixture, place, points, shares * ratio, np.ones(1))
 
 
@@ -199,10 +207,9 @@ def corner_means(omega_o: Array, lobe: LobeLike, mixture: Mixture, place: Place)
     deviations: exact to the third degree.
     """
     corners = np.sqrt(1.2) * np.array([[0, 0], [1, 1], [1, -1], [-1, 1], [-1, -1]])
-    y1 = mixture.y1[..., None] + (mixture.s / place.rho[..., None])[..., None] * corners[:, 0]
-    y2 = mixture.y2[..., None] + mixture.s[..., None] * corners[:, 1]
+    points = _slopes_at(place, *_spread_over(mixture, place, corners))
     shares = np.array([4, 5, 5, 5, 5]) / 24
-    return _means(omega_o, lobe, mixture, place, _slopes_at(place, y1, y2), shares, np.ones(1))
+    return _means(omega_o, lobe, mixture, place, points, shares, np.ones(1))
 
 
 def two_point_means(omega_o: Array, lobe: LobeLike, mixture: Mixture, place: Place) -> Means:

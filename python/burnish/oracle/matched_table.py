@@ -125,17 +125,26 @@ def half_square(omega_o: npt.ArrayLike) -> tuple[Array, Array]:
     return side * plane * radius / np.where(largest > 0, largest, 1.0), side
 
 
+def plane_of_view(view: Array) -> Array:
+    """Unit vector (..., 2) along the first two of a view's numbers.
+
+    A view along the normal has no azimuth: the first axis serves.
+    """
+    plane = view[..., :2]
+    length = np.linalg.norm(plane, axis=-1, keepdims=True)
+    unit: Array = np.where(length > 0, plane, [1.0, 0.0]) / np.where(length > 0, length, 1.0)
+    return unit
+
+
 def view_at(square: Array) -> Array:
     """Local view (..., 3) at a place (..., 2) of the square, its cosine at least 1e-4."""
-    seen = np.any(square != 0, axis=-1, keepdims=True)
-    view = _view(np.max(np.abs(square), axis=-1), np.where(seen, square, [1.0, 0.0]))
-    return np.where(seen, view, [0.0, 0.0, 1.0])
+    view = _view(np.max(np.abs(square), axis=-1), plane_of_view(square))
+    return np.where(np.any(square != 0, axis=-1, keepdims=True), view, [0.0, 0.0, 1.0])
 
 
 def _view(radius: Array, plane: Array) -> Array:
     cosine = radius_cosine(radius)[..., None]
-    along = plane / np.linalg.norm(plane, axis=-1, keepdims=True)
-    return np.concatenate([along * np.sqrt(1 - cosine**2), cosine], axis=-1)
+    return np.concatenate([plane * np.sqrt(1 - cosine**2), cosine], axis=-1)
 
 
 def nearest_view(omega_o: npt.ArrayLike, *, is_round: bool) -> Array:
@@ -149,6 +158,4 @@ def nearest_view(omega_o: npt.ArrayLike, *, is_round: bool) -> Array:
     if not is_round:
         return view_at(side * (np.floor(square * (VIEW_NODES - 1) + 0.5) / (VIEW_NODES - 1)))
     radius = np.floor(view_radius(omega_o[..., 2]) * (TABLE_ROWS - 1) + 0.5) / (TABLE_ROWS - 1)
-    seen = np.any(omega_o[..., :2] != 0, axis=-1, keepdims=True)
-    # A view along the normal has no azimuth: the first axis serves.
-    return _view(radius, np.where(seen, omega_o[..., :2], [1.0, 0.0]))
+    return _view(radius, plane_of_view(omega_o))

@@ -13,7 +13,7 @@ import numpy.typing as npt
 
 from .arrays import Array, as_array, dot
 from .kurt_lobe import KurtLobe, LobeLike, grazing_factor, schlick_fresnel, slopes
-from .matched_table import half_square, view_at
+from .matched_table import half_square, plane_of_view, view_at
 
 # Reflectance along the normal below which directions are no longer weighed by it.
 _LEAST_SPECULAR = 1e-3
@@ -139,8 +139,7 @@ def lobe_moments(omega_o: npt.ArrayLike, lobe: LobeLike) -> Moments:
         return Moments(side * _interpolate(nodes.mean, at), _interpolate(nodes.covariance, at))
     # Those of round lobes are along the plane of view.
     at = np.max(np.abs(square), axis=-1, keepdims=True) * last
-    length = np.linalg.norm(omega_o[..., :2], axis=-1, keepdims=True)
-    e = np.where(length > 0, omega_o[..., :2], [1.0, 0.0]) / np.where(length > 0, length, 1.0)
+    e = plane_of_view(omega_o)
     turn = np.stack([e, np.stack([-e[..., 1], e[..., 0]], axis=-1)], axis=-1)
     mean = np.einsum("...ij,...j->...i", turn, _interpolate(nodes.mean, at))
     return Moments(mean, turn @ _interpolate(nodes.covariance, at) @ np.swapaxes(turn, -1, -2))
