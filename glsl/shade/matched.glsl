@@ -17,7 +17,7 @@ struct MixtureView {
     // One deviation of a component of s = 1: h along the direction in which cos_i changes most, p across it (o.p = 0).
     vec3 h, p;
     float oh, h2, p2;    // o.h, |h|^2, |p|^2
-    float linear;        // b^2/c: a component's variance over s^2 (o.h) cos_h^3
+    float linear;        // variance_share b^2/c: a component's variance over s^2 (o.h) cos_h^3
     float share;         // of level 1's variance, for a variance of 1: see spherical_level
     int row;             // its first entry in the table
     vec2 fresnel;        // F = x + y (1 - o.h)^5 over all channels: weighs directions within a component
@@ -65,7 +65,13 @@ LobeAxes lobe_axes(vec3 local_o, vec2 roughness) {
     return axes;
 }
 
-MixtureView view_mixture(LobeView v, uint table_begin, float variance_share, vec3 specular, vec3 grazing) {
+// Of the linear map's variance, what a component has.
+float variance_share(vec2 roughness, float rho) {
+    const float less = MATCHED_NARROW_LESS - MATCHED_NARROW_LESS_OF_ONE / float(SAMPLE_COUNT);
+    return MATCHED_VARIANCE_SHARE * (1.0 - less * exp(-MATCHED_NARROW_DECAY * roughness.x * roughness.y) / rho);
+}
+
+MixtureView view_mixture(LobeView v, uint table_begin, float level_share, vec3 specular, vec3 grazing) {
     LobeAxes axes = lobe_axes(v.local_o, v.roughness);
 
     MixtureView view;
@@ -82,9 +88,9 @@ MixtureView view_mixture(LobeView v, uint table_begin, float variance_share, vec
     view.p = (-u.y * view.inverse_rho) * view.g1 + u.x * view.g2;
     view.oh = dot(u, slope);
     view.p2 = dot(view.p, view.p);
-    view.linear = axes.minor * axes.minor / axes.foreshortening;
+    view.linear = variance_share(v.roughness, axes.rho) * axes.minor * axes.minor / axes.foreshortening;
     view.h2 = dot(view.h, view.h);
-    view.share = variance_share;
+    view.share = level_share;
     float node = log2(axes.rho) * (float(MATCHED_ROWS - 1u) / MATCHED_LOG2_LARGEST_RHO) + 0.5;
     view.row = int(table_begin) + int((SAMPLE_COUNT + 1u) / 2u) * int(node < float(MATCHED_ROWS - 1u) ? node : float(MATCHED_ROWS - 1u));
     // Where nothing is reflected, some direction must still come out.
@@ -205,7 +211,7 @@ void place_pair(LobeView v, MixtureView view, vec4 entry, out Lookup one, out Lo
     pair.inverse = inverse_length * inverse_length;
     pair.deviation = pair.s * view.oh;
     // (s b)^2 (o.h) cos_h^3/c, the variance of the linear map, with the lengths at both points; og is left to each.
-    pair.variance = MATCHED_VARIANCE_SHARE * s2 * view.share * view.linear * (pair.inverse.x * pair.inverse.y);
+    pair.variance = s2 * view.share * view.linear * (pair.inverse.x * pair.inverse.y);
     float od = entry.x * view.o1 + entry.y * view.o2;
     if (HAS_WIDE_COMPONENTS) {
         one = place_wide(v, view, pair, pair.d, v.local_o.z + od);

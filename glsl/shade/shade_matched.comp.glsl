@@ -6,6 +6,6 @@
 #include "shade/shade.glsl"
 
 vec3 look_up_lobe(LobeView v, SurfaceLobe lobe, LobeRecord record, vec2 albedo, MapRecord map) {
-    MixtureView view = view_mixture(v, record.table_begin, record.variance_share, lobe.specular, lobe.grazing);
+    MixtureView view = view_mixture(v, record.table_begin, record.level_share, lobe.specular, lobe.grazing);
     return finish_lobe(v, gather_matched(v, view), lobe.specular, lobe.grazing, albedo);
 }

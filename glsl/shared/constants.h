@@ -37,8 +37,12 @@ SHARED_CONST float MATCHED_LOG2_LARGEST_RHO = 6.6438562f;
 // nodes from the normal to the horizon.
 SHARED_CONST uint MATCHED_VIEW_NODES = 128u;
 SHARED_CONST float MATCHED_MOST_VIEW_ASPECT = 16.0f;
-// Of the linear map's variance, what a component of a mixture has.
+// Of the linear map's variance, what a component of a mixture has: so much of a wide or a long lobe, and of a narrow round one
+// less by (LESS - LESS_OF_ONE/n) exp(-DECAY mx my)/rho, which the mean of two levels is wider than the level between them.
 SHARED_CONST float MATCHED_VARIANCE_SHARE = 0.95f;
+SHARED_CONST float MATCHED_NARROW_LESS = 0.13f;
+SHARED_CONST float MATCHED_NARROW_LESS_OF_ONE = 0.25f;
+SHARED_CONST float MATCHED_NARROW_DECAY = 16.0f;
 // A component's variance is at least this share of the spread of what its points reflect; the linear map leaves next to
 // nothing of one whose centre reflects the horizon.
 SHARED_CONST float MATCHED_LEAST_SPREAD_SHARE = 0.5f;

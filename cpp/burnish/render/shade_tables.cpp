@@ -154,7 +154,7 @@ ShadeTables make_shade_tables(const vulkan::DevicePointer& device, const Scene& 
                     record.table_begin = writer.mixtures(matched->samples);
                 }
                 record.table_count = matched->samples;
-                record.variance_share = spherical_share(1.0, face_size);
+                record.level_share = spherical_share(1.0, face_size);
                 counts[instance.shade_class].insert(matched->samples);
             } else if (traits.table == TableForm::prefiltered) {
                 counts[instance.shade_class].insert(1);

@@ -129,6 +129,9 @@ public:
         const glm::dvec2 u = steepness > 1e-7 ? change / steepness : glm::dvec2(0.0, 1.0);
         steepest_ = u.x * narrow + u.y * place_.axis2;
         offset_ = glm::dvec2(drift) * o;
+        const double less = shared::MATCHED_NARROW_LESS - shared::MATCHED_NARROW_LESS_OF_ONE / lobe.samples;
+        const double fall = std::exp(-shared::MATCHED_NARROW_DECAY * lobe.roughness_x * lobe.roughness_y);
+        variance_share_ = shared::MATCHED_VARIANCE_SHARE * (1.0 - less * fall / place_.rho);
         area_ = std::abs(place_.axis1.x * place_.axis2.y - place_.axis1.y * place_.axis2.x);
     }
 
@@ -156,14 +159,14 @@ private:
         return place_.center + y.x * place_.axis1 + y.y * place_.axis2;
     }
 
-    /// MATCHED_VARIANCE_SHARE of what the linear map makes of the component, 4 s^2 |axis1 x axis2|/rho (o.h)
+    /// A share of what the linear map makes of the component, 4 s^2 |axis1 x axis2|/rho (o.h)
     /// cos_h^3; at most 1, what the sphere holds. The lengths are of the points one deviation to either side
     /// along the direction in which cos_i changes most.
     double linear_variance(glm::dvec2 y, double s) const {
         const glm::dvec2 slope = slope_at(y), h = s * steepest_;
         const double og = std::max(omega_o_.z + glm::dot(glm::dvec2(omega_o_), slope), 0.0);
         const glm::dvec2 one = slope + h, other = slope - h;
-        return std::min(shared::MATCHED_VARIANCE_SHARE * 4.0 * s * s * area_ / place_.rho * og /
+        return std::min(variance_share_ * 4.0 * s * s * area_ / place_.rho * og /
                             ((1.0 + glm::dot(one, one)) * (1.0 + glm::dot(other, other))),
                         1.0);
     }
@@ -192,9 +195,10 @@ private:
     glm::dvec3 omega_o_;
     std::span<const Point> points_;
     Place place_;
-    glm::dvec2 offset_;   ///< that kernels add to slopes
-    glm::dvec2 steepest_; ///< slope of one deviation of s = 1 along which cos_i changes most
-    double area_;         ///< |axis1 x axis2|
+    glm::dvec2 offset_;     ///< that kernels add to slopes
+    glm::dvec2 steepest_;   ///< slope of one deviation of s = 1 along which cos_i changes most
+    double area_;           ///< |axis1 x axis2|
+    double variance_share_; ///< of the linear map's variance, what a component has
 };
 
 /// Place on the square of row j, see build_matched_view_table.

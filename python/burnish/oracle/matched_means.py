@@ -16,8 +16,10 @@ _SMALL = 1e-9
 
 #: Lobes of greater slopes have means over many points.
 WIDE_SLOPE = 0.35
-#: Of the linear map's variance, what a sample has.
+#: Of the linear map's variance, what a sample of a wide or a long lobe has.
 VARIANCE_SHARE = 0.95
+#: Of a narrow round lobe it is less by (first - second/n) exp(-third mx my)/rho.
+NARROW_LESS = (0.13, 0.25, 16.0)
 #: Of the spread of what a sample's points reflect, what its variance is at least.
 LEAST_SPREAD_SHARE = 0.5
 
@@ -128,6 +130,18 @@ def _pair(omega_o: Array, mixture: Mixture, place: Place) -> _Pair:
     return _Pair(np.stack([center + offset, center - offset], axis=-2), p[..., None, :])
 
 
+def variance_share(lobe: LobeLike, samples: int, rho: Array) -> Array:
+    """Of the linear map's variance, what a sample has (...).
+
+    A lookup between two levels is wider than its variance says, which is that of a level between them; a
+    narrow round lobe, whose picture is sharp, shows it. Among few samples other errors hide it.
+    """
+    mx, my = slopes(lobe)
+    most, of_one, decay = NARROW_LESS
+    share: Array = VARIANCE_SHARE * (1 - (most - of_one / samples) * np.exp(-decay * mx * my) / rho)
+    return share
+
+
 def _means(
     omega_o: Array,
     lobe: LobeLike,
@@ -139,9 +153,9 @@ def _means(
 ) -> Means:
     """Means over points of slopes (..., n, k, 2) with shares (..., n, k).
 
-    The variance per axis is .95 of the linear map's, 4 s^2 |axis1 x axis2|/rho (o.h) cos_h^3 with cos_h^-4
-    the product of |g|^2 of the pair. Where a sample's centre reflects the horizon, that is next to nothing:
-    half of the spread of what its points reflect, 1 - |M|/G, is the least.
+    The variance per axis is `variance_share` of the linear map's, 4 s^2 |axis1 x axis2|/rho (o.h) cos_h^3
+    with cos_h^-4 the product of |g|^2 of the pair. Where a sample's centre reflects the horizon, that is next
+    to nothing: half of the spread of what its points reflect, 1 - |M|/G, is the least.
     """
     light = reflect_slopes(omega_o[..., None, None, :], lobe, points, bend)
     parts = [np.sum(shares * part, axis=-1) for part in (light.base, light.base * light.schlick)]
@@ -161,7 +175,8 @@ def _means(
     linear = 4 * mixture.s**2 * (np.abs(place.area) / place.rho)[..., None] * product / lengths
     spread = np.where(seen, np.maximum(1 - length / np.where(seen, gain, 1.0), 0.0), 0.0)
     # The map is far from linear where it makes more than the sphere holds.
-    variance = np.clip(np.maximum(VARIANCE_SHARE * linear, LEAST_SPREAD_SHARE * spread), 1e-20, 1.0)
+    share = variance_share(lobe, mixture.w.shape[-1], place.rho)[..., None]
+    variance = np.clip(np.maximum(share * linear, LEAST_SPREAD_SHARE * spread), 1e-20, 1.0)
     return Means(mixture.w[..., None] * gains, direction, variance)
 
 

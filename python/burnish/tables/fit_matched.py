@@ -42,7 +42,7 @@ _MOMENT_WEIGHT = 0.7
 _MOMENT_WEIGHTS_OF_FEW = {2: 3.0, 3: 3.0, 4: 1.0, 5: 0.5}
 # Added to the seed of the starts: of candidates whose errors are alike, ones that keep the lobe's covariance
 # and with which neighbouring pixels of wide round lobes differ little, which is chance.
-_SEED_STEPS = {14: 1, 16: 1}
+_SEED_STEPS = {8: 3, 12: 3, 14: 1, 16: 1}
 # The most samples whose centres are a pair and the middle.
 _MOST_ON_A_LINE = 3
 # Many unknowns take more iterations.

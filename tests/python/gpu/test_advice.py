@@ -7,6 +7,7 @@ is in docs/targets.md. Here a few small ones, with a generous bound.
 import json
 import subprocess
 import sys
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -239,3 +240,33 @@ def test_the_command_gives_a_table_and_a_report(tmp_path):
     assert result.stdout.startswith("target 5 %, 24 x 24, on ")
     assert "error really reached" in result.stdout and f"wrote {report}" in result.stdout
     assert json.loads(report.read_text())["meets_target"]
+
+
+def picture(values):
+    """A picture of grey pixels, all of them objects."""
+    grey = np.asarray(values, np.float32)[None, :, None]
+    return SimpleNamespace(color=np.repeat(grey, 3, axis=-1), alpha=np.ones(grey.shape[:2], np.float32))
+
+
+@pytest.mark.parametrize(
+    ("shown", "least", "most"),
+    [
+        pytest.param([1.0, 1.0, 1.0, 9.0], 0.5, 1.0, id="a highlight the candidate lacks"),
+        pytest.param([1.0, 1.0, 1.0, 1.02], 0.009, 0.011, id="none"),
+    ],
+)
+def test_probe_doubts_a_candidate_that_lacks_a_highlight_of_the_large_picture(
+    device, monkeypatch, shown, least, most
+):
+    """On the small picture the candidate errs .01, less than the dense sampler, and nothing shows."""
+    truth, dense, candidate = [1.0, 1.0], [1.1, 1.1], [1.01, 1.01]
+    probe = Probe(
+        sphere(burnish.KurtLobe(0.3), environments.uniform(face_size=4)), None, SIZE, "gauss6", device
+    )
+    probe._can_sum, probe._large, probe._truth = True, (1, 4), picture(truth)
+    probe._small = (1, 2)
+    monkeypatch.setattr(probe, "_dense_pictures", lambda: (picture(dense), picture(shown)))
+    monkeypatch.setattr(probe, "_dense_error", lambda size: 0.02)
+    drawn = {(1, 2): picture(candidate), (1, 4): picture([1.0] * 4)}
+    monkeypatch.setattr(probe, "draw", lambda sampler, size: drawn[size])
+    assert least <= probe.error("matched:14") <= most
