@@ -36,7 +36,7 @@ Float64 = NDArray[np.float64]
 _START_ASPECTS = (4.5, 8.0, 15.0)
 _KERNEL_ERRORS = (0.1, 0.15)
 # Fewer samples than this miss the moments of short lobes by a fiftieth with the greater kernel error.
-_FEW = 6
+_FEW = 7
 # Weight of the moments; the fewest samples would else miss them by as much with either.
 _MOMENT_WEIGHT = 0.7
 _MOMENT_WEIGHTS_OF_FEW = {2: 3.0, 3: 3.0, 4: 1.0, 5: 0.5}
