@@ -18,7 +18,7 @@ LARGEST_ASPECT = 100.0
 #: Where `fit_matched` writes it.
 TABLE_PATH = Path(__file__).parent.parent / "tables" / "matched.txt"
 #: Of the committed file; the one place that knows it.
-TABLE_SHA256 = "e9a0912897bda3fee3ee6f8352e6643b4a27d23010894c959c7ae9671c43ea87"
+TABLE_SHA256 = "b2106b8a93dc66a7a132c70776ded058690b7c49afa3779b7551469fd5cb1ec7"
 
 
 @dataclass(frozen=True)
