@@ -5,7 +5,7 @@ import warnings
 
 import burnish
 from burnish import environments
-from burnish.study.sampler_text import sampler_from_text
+from burnish.samplers import sampler_from_text
 
 SAMPLERS = ("regular:14", "importance:14", "matched:14", "prefiltered", "reference:0.2")
 

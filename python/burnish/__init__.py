@@ -5,18 +5,11 @@ What a frame cost and what was left out is in ``frame.report``; how far it is fr
 ``frame.error(reference)`` says.
 """
 
-from importlib.metadata import PackageNotFoundError
-from importlib.metadata import version as _version
-
 from burnish._extension import load_failure as _load_failure
+from burnish._version import __version__
 from burnish.doctor import DoctorReport, doctor
 from burnish.frame import Frame
 from burnish.report import Report
-
-try:
-    __version__ = _version("burnish")
-except PackageNotFoundError:  # used from a source tree that is not installed
-    __version__ = "0+unknown"
 
 __all__ = [
     "Advice",
@@ -71,11 +64,12 @@ if _load_failure() is None:
         sample_pattern,
     )
     from burnish._methods import attach as _attach
-    from burnish.rendering import render, shade
+    from burnish.advice import Advice, advise
+    from burnish.render import render
+    from burnish.rendering import shade
 
     _attach()
-    from burnish import study  # measures the names above, so it comes after them
-    from burnish.advice import Advice, advise  # rests on studies
+    from burnish import study
 
 
 def __getattr__(name: str) -> object:

@@ -1,6 +1,5 @@
 """Frames and shaded points: arguments are checked here, the work is the extension's."""
 
-import warnings
 from collections.abc import Callable
 from typing import Any, Literal, TypeAlias
 
@@ -11,8 +10,8 @@ from burnish import _core
 from burnish._device import default_device
 from burnish.frame import Frame
 from burnish.report import Report
+from burnish.samplers import Sampler
 
-Sampler: TypeAlias = _core.Regular | _core.Importance | _core.Matched | _core.Prefiltered | _core.Reference
 Filter: TypeAlias = Literal["box", "gauss4", "gauss6"]
 Output: TypeAlias = Literal["linear", "display"]
 FloatArray: TypeAlias = NDArray[np.float32]
@@ -123,7 +122,8 @@ def require_size(size: tuple[int, int]) -> tuple[int, int]:
     return height, width
 
 
-def _require_spp(spp: int) -> None:
+def require_spp(spp: int) -> None:
+    """Raise ValueError unless it is a number of frames that can be accumulated."""
     if isinstance(spp, bool) or not isinstance(spp, int | np.integer) or not 1 <= spp <= 65536:
         raise ValueError(f"spp: expected an integer in 1..65536, got {spp!r}")
 
@@ -144,7 +144,7 @@ def _stops(output: Output, display_exposure: float) -> float | None:
     return stops if output == "display" else None
 
 
-def render(
+def draw(
     scene: _core.Scene,
     camera: _core.Camera | None = None,
     size: tuple[int, int] = (540, 960),
@@ -153,124 +153,38 @@ def render(
     spp: int = 1,
     filter: Filter = "gauss6",
     progress: Progress | None = None,
-    target_error: float | None = None,
-    verify: bool = False,
-    error_estimate: bool = False,
     strict: bool = False,
     output: Output = "linear",
     display_exposure: float = 0.0,
 ) -> Frame:
-    """Render one frame.
-
-    Parameters
-    ----------
-    scene : Scene
-        Objects, materials and the environment that lights them.
-    camera : Camera or None
-        None: the scene's first camera, or one that sees all of it.
-    size : (height, width)
-        Pixels, 1..16384 each.
-    sampler : Regular, Importance, Matched, Prefiltered, Reference or None
-        None: ``Matched()``, 14 samples.
-    device : Device or None
-        None: the best one, opened once.
-    spp : int
-        Jittered frames that are accumulated, 1..65536: the mean over a filter 3 pixels wide around the
-        pixel's centre, which one frame looks at.
-    filter : "box", "gauss4" or "gauss6"
-        Reduction filter of the environment's pyramid.
-    progress : callable or None
-        Called with the share done, 0..1, and the step's name; an exception that it raises stops the frame.
-        With a target the shares of the advice come first.
-    target_error : float or None
-        Relative RMSE of linear radiance where objects are: the cheapest sampler and count that are predicted
-        to meet it are taken, as `burnish.advise` finds them, and ``frame.report.prediction`` says which,
-        why, and at what price. Then `sampler` must be None.
-    verify : bool
-        Also measure the error that the chosen sampler really reaches, against a reference on a picture of
-        reduced size; it is in the prediction. Only with a target.
-    error_estimate : bool
-        Also estimate the error of every pixel, without a reference: ``frame.error_estimate``. It takes a
-        second frame of fewer samples.
-    strict : bool
-        Raise where a value was not finite, instead of a black pixel and a line in the report.
-    output : "linear" or "display"
-        "display": the device stores 8-bit sRGB with coverage, ``frame.display``, as
-        `images.display_image` makes it of linear radiance, within one code; no linear picture is made.
-    display_exposure : float
-        Stops, -64..64, with "display" only: radiance is multiplied by 2**display_exposure.
+    """Draw one frame with a given sampler, as `burnish.render`, which documents the parameters, does.
 
     Returns
     -------
     frame : Frame
-        Linear radiance and coverage, or pixels for a display; depth and normals, and the report that prices
-        them.
-
-    Warns
-    -----
-    RuntimeWarning
-        If no sampler is predicted to meet the target; the closest is taken.
-
-    Raises
-    ------
-    ValueError
-        If an argument or the scene is out of its documented range.
-    FloatingPointError
-        If `strict` and a value was not finite; it says how many, where, and in which pass.
-    VulkanError
-        If no device can do it.
+        Linear radiance and coverage, or pixels for a display; depth, normals and the report.
     """
     require_filter(filter)
     height, width = require_size(size)
-    _require_spp(spp)
-    if target_error is not None and sampler is not None:
-        raise ValueError(f"sampler: expected None beside a target_error, got {sampler!r}")
-    if verify and target_error is None:
-        raise ValueError("verify: expected a target_error beside it, got None")
-    if camera is None and scene.cameras:
-        camera = scene.cameras[0]
-    device = device or default_device()
-    prediction = None
-    if target_error is not None:
-        from burnish.advice import advise
-
-        advice = advise(
-            scene, target_error, (height, width), camera, filter, device, verify=verify, progress=progress
-        )
-        sampler, prediction = advice.sampler, advice.to_dict()
-        if advice.warning is not None:
-            warnings.warn(advice.warning, RuntimeWarning, stacklevel=2)
-    sampler = _core.Matched() if sampler is None else sampler
+    require_spp(spp)
     stops = _stops(output, display_exposure)
-    camera = scene.default_camera() if camera is None else camera
-    if error_estimate:
-        from burnish.advice.error_estimate import companion
-
-        if stops is not None:
-            raise ValueError("error_estimate: expected False beside display output (no radiance), got True")
-        other = companion(sampler)  # refuses a sampler that has none before any work is done
+    sampler = _core.Matched() if sampler is None else sampler
+    camera = view_of(scene, camera)
+    device = device or default_device()
     data = _core.render(
         device, scene, camera, height, width, sampler, int(spp), filter, progress, strict, stops
     )
-    report = dict(data.report) | ({"prediction": prediction} if prediction else {})
-    surface = (lambda: data.depth, lambda: data.normal, Report(report))
+    surface = (lambda: data.depth, lambda: data.normal, Report(dict(data.report)))
     if stops is not None:
         return Frame(None, None, *surface, display=data.display, camera=camera)
-    frame = Frame(data.color, data.alpha, *surface, camera=camera)
-    if error_estimate:
-        from burnish.advice import error_estimate as estimates
+    return Frame(data.color, data.alpha, *surface, camera=camera)
 
-        def draw(by: Sampler) -> Any:
-            return _core.render(device, scene, camera, height, width, by, int(spp), filter, None, strict)
 
-        errors = estimates.estimate_errors(sampler, frame.color, draw(other).color, frame.alpha)
-        diffuse_error = frame.report.diffuse_error
-        if diffuse_error > 0.0:
-            better = estimates.with_exact_diffuse(sampler)
-            exact = None if better is None else draw(better).color
-            errors = estimates.add_diffuse_errors(errors, frame.color, frame.alpha, diffuse_error, exact)
-        frame.error_estimate = errors
-    return frame
+def view_of(scene: _core.Scene, camera: _core.Camera | None) -> _core.Camera:
+    """Give a camera, or the scene's first where there is none, or one that sees all of it."""
+    if camera is None:
+        return scene.cameras[0] if scene.cameras else scene.default_camera()
+    return camera
 
 
 def plan(
@@ -308,6 +222,6 @@ def plan(
         ``passes`` and ``effects`` with a reason each, ``classes`` of pipelines, ``warnings``.
     """
     require_filter(filter)
-    _require_spp(spp)
+    require_spp(spp)
     sampler = _core.Matched() if sampler is None else sampler
     return _core.plan(scene, sampler, int(spp), filter, is_software, _stops(output, 0.0), device)

@@ -123,6 +123,16 @@ class Report:
         prediction = self._data.get("prediction")
         return None if prediction is None else dict(prediction)
 
+    def with_prediction(self, prediction: Mapping[str, Any]) -> "Report":
+        """Give the same report with what was predicted for a target error.
+
+        Parameters
+        ----------
+        prediction : dict
+            As ``Advice.to_dict`` gives it.
+        """
+        return Report(self._data | {"prediction": dict(prediction)})
+
     @property
     def total_ms(self) -> float:
         """Sum over the passes, GPU time."""

@@ -67,7 +67,7 @@ class Advice:
     @property
     def sampler(self) -> Any:
         """The chosen sampler, for `burnish.render`."""
-        from burnish.study.sampler_text import sampler_from_text
+        from burnish.samplers import sampler_from_text
 
         return sampler_from_text(self.chosen.sampler)
 

@@ -13,12 +13,12 @@ from datetime import datetime, timezone
 from pathlib import Path
 from typing import Any
 
-import burnish
 from burnish import _core, builtin
+from burnish._version import __version__
 from burnish.advice.families import FAMILIES, sampler_text
 from burnish.images.files import write_text
-from burnish.rendering import render
-from burnish.study.sampler_text import sampler_from_text
+from burnish.rendering import draw
+from burnish.samplers import sampler_from_text
 
 SIZE = (96, 256)
 """Pixels of the pictures that are timed, all of them covered."""
@@ -77,7 +77,7 @@ def cache_path(device: _core.Device) -> Path | None:
     device : Device
         Its name, driver and lookup and the version of burnish decide the file's name.
     """
-    name = f"{device.name}|{device.driver}|{device.lookup}|{burnish.__version__}"
+    name = f"{device.name}|{device.driver}|{device.lookup}|{__version__}"
     folder = _core.cache_folder()
     return folder / f"cost-{hashlib.sha256(name.encode()).hexdigest()[:12]}.json" if folder else None
 
@@ -144,7 +144,7 @@ class CostModel:
             "device": self._device.name,
             "driver": self._device.driver,
             "lookup": self._device.lookup,
-            "version": burnish.__version__,
+            "version": __version__,
             "date": datetime.now(timezone.utc).isoformat(timespec="seconds"),
             "rates_ns": self._rates,
         }
@@ -194,7 +194,7 @@ def measure_fixed_ns(device: _core.Device) -> float:
     for run in range(RUNS + 1):
         for scale in scales:
             size = (scale * SIZE[0], scale * SIZE[1])
-            passes = render(scene, camera, size, _core.Matched(5), device).report.passes
+            passes = draw(scene, camera, size, _core.Matched(5), device).report.passes
             if run > 0:
                 others = [one["milliseconds"] for one in passes if not one["name"].startswith(SHADE_PREFIX)]
                 times[scale].append(sum(others))
@@ -236,7 +236,7 @@ def measure_rates(device: _core.Device, family: str, traits: Traits) -> dict[str
     for run in range(RUNS + 1):
         for count in counts:
             sampler: Any = sampler_from_text(sampler_text(family, count))
-            report = render(scene, camera, SIZE, sampler, device).report
+            report = draw(scene, camera, SIZE, sampler, device).report
             if run > 0:  # the first compiles and uploads
                 passes = report.passes
                 times[count].append(

@@ -1,14 +1,15 @@
 """An error for every pixel without a reference: the picture against one of fewer lookups.
 
 Both pictures err, and the one of fewer lookups errs more. How much of their difference is the picture's own
-error, studies have measured for each sampler and count (``python -m burnish.study.calibrate``). Of a single
-pixel the difference may vanish by chance; its mean square over the neighbourhood does not.
+error, studies have measured for each sampler and count, ``python -m burnish.advice.calibration.calibrate``.
+Of a single pixel the difference may vanish by chance; its mean square over the neighbourhood does not.
 
 Both see the same light on diffuse surfaces. The error of that is known from when the light was made
 (``Report.diffuse_error``), or is the difference from a picture of the better form.
 """
 
 import math
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -17,7 +18,8 @@ from numpy.typing import NDArray
 from burnish import _core
 from burnish.advice.error_model import committed_data
 from burnish.advice.families import MATCHED_COUNTS
-from burnish.study.sampler_text import sampler_parameters
+from burnish.frame import Frame
+from burnish.samplers import Sampler, sampler_parameters
 
 FloatArray = NDArray[np.float32]
 Float64 = NDArray[np.float64]
@@ -154,6 +156,34 @@ def estimate_errors(
     total = float(smoothed.sum())
     scale = float(squares.sum()) / total if total > 0.0 else 0.0
     return np.asarray(own_share(sampler) * np.sqrt(smoothed * scale), np.float32)
+
+
+def estimate_frame_errors(
+    frame: Frame, sampler: Sampler, draw: Callable[[Sampler], FloatArray]
+) -> FloatArray:
+    """Estimate the error of every pixel of a frame, that of its diffuse light included.
+
+    Parameters
+    ----------
+    frame : Frame
+        With linear radiance.
+    sampler : Regular, Importance, Matched or Prefiltered
+        That drew it.
+    draw : callable
+        Gives the radiance of the same view by another sampler, (h, w, 3) float32.
+
+    Returns
+    -------
+    errors : (h, w) float32
+        Absolute linear radiance, root mean square over the channels.
+    """
+    errors = estimate_errors(sampler, frame.color, draw(companion(sampler)), frame.alpha)
+    diffuse_error = frame.report.diffuse_error
+    if diffuse_error > 0.0:
+        better = with_exact_diffuse(sampler)
+        exact = None if better is None else draw(better)
+        errors = add_diffuse_errors(errors, frame.color, frame.alpha, diffuse_error, exact)
+    return errors
 
 
 def _box_sum(values: Float64, radius: int) -> Float64:

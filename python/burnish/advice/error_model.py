@@ -10,7 +10,7 @@ on the sampler, the count n and the lobe's aspect rho alone:
 The term in the slope m is for wide lobes, whose half-vectors are no longer mapped linearly; q is a factor for
 Fresnel and one for alpha. A sampler that takes suns out of the map sees the contrast P of the rest, and errs
 by z of the energy Z that the suns bring. The coefficients a, p, g, h, w, q, z of each family are fitted to
-studies by ``python -m burnish.study.calibrate``, which wrote error_model.json beside this file.
+studies by ``python -m burnish.advice.calibration.calibrate``, which wrote error_model.json beside this file.
 """
 
 import json

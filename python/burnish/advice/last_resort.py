@@ -3,7 +3,7 @@
 from burnish import _core
 from burnish.advice.probe import Probe
 from burnish.advice.search import Candidate
-from burnish.study.sampler_text import sampler_to_text
+from burnish.samplers import sampler_to_text
 
 TRIAL_SAMPLES = 2048
 MOST_SAMPLES = 65536

@@ -22,8 +22,8 @@ from burnish import _core
 from burnish.advice.reduced_maps import largest_face_size, reduced_face_size
 from burnish.advice.truth import DENSE, draw_dense, draw_truth
 from burnish.frame import Frame
-from burnish.rendering import Filter, render
-from burnish.study.sampler_text import sampler_from_text
+from burnish.rendering import Filter, draw
+from burnish.samplers import sampler_from_text
 
 SURVEY_PIXELS = 1500
 COVERED_PIXELS = 1000
@@ -183,7 +183,7 @@ class Probe:
         """
         with warnings.catch_warnings():
             warnings.simplefilter("ignore", RuntimeWarning)
-            return render(self._scene, self._camera, size, sampler, self._device, 1, self._filter)
+            return draw(self._scene, self._camera, size, sampler, self._device, 1, self._filter)
 
     def error(self, sampler: str) -> float:
         """Measure the relative RMSE of a sampler where objects are.

@@ -14,8 +14,8 @@ from numpy.typing import NDArray
 from burnish import _core
 from burnish.advice.reduced_maps import LEAST_ROUGHNESS, largest_face_size, reduced_maps
 from burnish.frame import FloatArray, Frame
-from burnish.rendering import Filter, render
-from burnish.study.sampler_text import sampler_from_text
+from burnish.rendering import Filter, draw
+from burnish.samplers import sampler_from_text
 
 DENSE = "importance:1024:fibonacci"
 RIM_TEXELS = 1.3
@@ -55,11 +55,11 @@ def draw_truth(
     """
     quadrature = _core.Reference(method="quadrature")
     with reduced_maps(scene, face_size):
-        fine = render(scene, camera, size, quadrature, device, 1, filter)
+        fine = draw(scene, camera, size, quadrature, device, 1, filter)
     is_exact = face_size >= largest_face_size(scene)
     if not is_exact:
         with reduced_maps(scene, face_size // 2):
-            coarse = render(scene, camera, size, quadrature, device, 1, filter)
+            coarse = draw(scene, camera, size, quadrature, device, 1, filter)
     slopes = [min(lobe.roughness) for material in scene.materials for lobe in material.lobes]
     finest = min(face_size, largest_face_size(scene))
     largest_cosine = RIM_TEXELS / (finest * max(min(slopes, default=1.0), LEAST_ROUGHNESS))
@@ -132,4 +132,4 @@ def draw_dense(
     scene, camera, size, filter, device
         As for `burnish.render`.
     """
-    return render(scene, camera, size, sampler_from_text(DENSE), device, 1, filter)
+    return draw(scene, camera, size, sampler_from_text(DENSE), device, 1, filter)

@@ -4,8 +4,9 @@
 """
 
 from burnish.hardcases.bench import Bench
-from burnish.hardcases.case import SAMPLERS, Bound, HardCase, Measurement, Quantity, driver_class
+from burnish.hardcases.case import SAMPLERS, Bound, HardCase, Measurement, Quantity
 from burnish.hardcases.catalogue import CASES, KNOWN_FAILURES, find_case
+from burnish.hardcases.driver import driver_class
 from burnish.hardcases.runner import measure, rows, run
 from burnish.hardcases.table import Table, page
 

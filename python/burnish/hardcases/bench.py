@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from burnish import _core
-from burnish.hardcases.case import ROUNDED_WEIGHTS, driver_class
+from burnish.hardcases.driver import ROUNDED_WEIGHTS, driver_class
 from burnish.hardcases.inputs import LIGHTS, Float32, Points
 from burnish.oracle.cube_map import PaddedCube, pad_cube
 from burnish.oracle.matched import MatchedMap
@@ -18,7 +18,8 @@ from burnish.oracle.pyramid import hold_in_halves
 from burnish.oracle.reference import quadrature_parts, shade_reference
 from burnish.oracle.shading import conserving_scale, shade_lobe, shade_matched_lobes
 from burnish.oracle.sun_split import split_suns
-from burnish.rendering import Sampler, shade
+from burnish.rendering import shade
+from burnish.samplers import Sampler
 
 Array = NDArray[np.float64]
 

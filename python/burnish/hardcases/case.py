@@ -2,13 +2,11 @@
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from burnish import Device
+    from burnish._core import Device
     from burnish.hardcases.bench import Bench
-
-DriverClass = Literal["exact", "rounded"]
 
 #: The samplers that a case runs with, by the names of the table; "" stands for a case without one.
 SAMPLERS = ("regular", "importance", "matched", "prefiltered", "reference")
@@ -16,24 +14,8 @@ SAMPLERS = ("regular", "importance", "matched", "prefiltered", "reference")
 BY_LOBE = SAMPLERS[:4]
 ONCE = ("",)
 
-#: Hardware rounds the weights of a lookup, along x, along y and between levels, to 8 bits.
-ROUNDED_WEIGHTS = 3 * 2.0**-9
 #: Rasterisers move corners of triangles to a grid of 2^-bits pixels: 8 on GPUs and lavapipe, 4 at the least.
 FINE_SUB_PIXEL_BITS = 8
-
-
-def driver_class(device: "Device") -> DriverClass:
-    """What a device's lookups are worth, which decides what is allowed for them.
-
-    "exact": weights in float32, as CPU drivers and the software lookup have them; "rounded": weights of 8
-    bits, as the samplers of GPUs have them. What one driver does wrong is in ``KNOWN_FAILURES``.
-
-    Parameters
-    ----------
-    device : Device
-        An open device.
-    """
-    return "exact" if device.is_software or device.lookup == "software" else "rounded"
 
 
 @dataclass(frozen=True)

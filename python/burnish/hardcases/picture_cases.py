@@ -13,7 +13,7 @@ from burnish.hardcases.bounds import SAME_BITS
 from burnish.hardcases.case import ONCE, Bound, HardCase, Quantity
 from burnish.hardcases.inputs import float32
 from burnish.hardcases.quantities import SAMPLES, difference, refusal, wild_count
-from burnish.rendering import render, shade
+from burnish.rendering import draw, shade
 
 SIZE = (24, 32)
 MATERIAL = _core.Material(diffuse=(0.3, 0.2, 0.1), lobes=[_core.KurtLobe(roughness=0.1, alpha=0.5)])
@@ -32,7 +32,7 @@ def _moved(x: float, y: float, z: float) -> Transform:
     return matrix
 
 
-def draw(
+def picture_of(
     bench: Bench,
     *objects: tuple[_core.Mesh, _core.Material, Transform],
     eye: tuple[float, float, float] = (0.0, 1.0, 4.0),
@@ -46,14 +46,14 @@ def draw(
         scene.add(mesh, material, transform)
     scene.environment = bench.light(light)
     camera = _core.Camera.look_at(eye, (0.0, 0.0, 0.0), near_plane=near)
-    return render(scene, camera, size, _core.Regular(SAMPLES), bench.device)
+    return draw(scene, camera, size, _core.Regular(SAMPLES), bench.device)
 
 
 def sphere(bench: Bench, factor: float = 1.0, mirror: float = 1.0) -> Frame:
     """A sphere and all about it scaled alike; `mirror` -1 mirrors the object in x."""
     place = _scaled(factor) @ np.diag([mirror, 1.0, 1.0, 1.0])
     eye = (0.0, factor, 4 * factor)
-    return draw(bench, (_core.Mesh.sphere(segments=24), MATERIAL, place), eye=eye, near=0.01 * factor)
+    return picture_of(bench, (_core.Mesh.sphere(segments=24), MATERIAL, place), eye=eye, near=0.01 * factor)
 
 
 def _triangles(positions: list[list[float]], normals: list[list[float]] | None = None) -> _core.Mesh:
@@ -90,44 +90,48 @@ def uncovered(picture: Picture, expected: float) -> Quantity:
 
 
 def _tiny_triangles(bench: Bench) -> Frame:
-    return draw(bench, (_core.Mesh.sphere(segments=128), BRUSHED, _scaled(0.02)), size=(16, 16))
+    return picture_of(bench, (_core.Mesh.sphere(segments=128), BRUSHED, _scaled(0.02)), size=(16, 16))
 
 
 def _degenerate(bench: Bench) -> Frame:
     a, b = [0.0, 0.0, 0.0], [1.0, 0.0, 0.0]
     long = [[-1e6, 0.0, 0.0], [1e6, 0.0, 0.0], [0.0, 1e6, 1.0]]
     mesh = _triangles([a, a, b, a, b, [2.0, 0.0, 0.0], *long], [[0.0, 0.0, 1.0]] * 9)
-    return draw(bench, (mesh, BRUSHED, np.eye(4)))
+    return picture_of(bench, (mesh, BRUSHED, np.eye(4)))
 
 
 def _opposed_normals(bench: Bench) -> Frame:
     mesh = _triangles([[-1, -1, 0], [1, -1, 0], [0, 1, 0]], [[-0.8, 0, 0.6], [0.8, 0, -0.6], [0, 0, 1]])
-    return draw(bench, (mesh, BRUSHED, np.eye(4)))
+    return picture_of(bench, (mesh, BRUSHED, np.eye(4)))
 
 
 def _black_share(bench: Bench, sampler: str) -> float:
     """Share of the pixels of a triangle, whose normals face away, that are black."""
     mesh = _triangles([[-1, -1, 0], [1, -1, 0], [0, 1, 0]], [[0, 0, -1]] * 3)
-    frame = draw(bench, (mesh, BRUSHED, np.eye(4)))
+    frame = picture_of(bench, (mesh, BRUSHED, np.eye(4)))
     return float(np.mean(frame.color[frame.alpha > 0].max(axis=-1) <= 0))
 
 
 def _inside(bench: Bench) -> Frame:
-    return draw(bench, (_core.Mesh.sphere(segments=24), BRUSHED, _scaled(10.0)))
+    return picture_of(bench, (_core.Mesh.sphere(segments=24), BRUSHED, _scaled(10.0)))
 
 
 def _wall(bench: Bench, distance: float) -> Frame:
     mesh = _triangles([[-9, -9, 0], [9, -9, 0], [0, 18, 0]], [[0, 0, 1]] * 3)
     place = _moved(0.0, 0.0, -distance) @ _scaled(distance)
-    return draw(bench, (mesh, MATERIAL, place), eye=(0.0, 0.0, 1.0))
+    return picture_of(bench, (mesh, MATERIAL, place), eye=(0.0, 0.0, 1.0))
 
 
 def _horizon(bench: Bench) -> Frame:
-    return draw(bench, (_core.Mesh.plane(size=2e6), BRUSHED, np.eye(4)), eye=(0.0, 1e-3, 1.0), near=1e-6)
+    return picture_of(
+        bench, (_core.Mesh.plane(size=2e6), BRUSHED, np.eye(4)), eye=(0.0, 1e-3, 1.0), near=1e-6
+    )
 
 
 def _touching(bench: Bench) -> Frame:
-    return draw(bench, (_core.Mesh.sphere(segments=24), BRUSHED, np.eye(4)), eye=(0.0, 0.0, 1.0), near=1e-6)
+    return picture_of(
+        bench, (_core.Mesh.sphere(segments=24), BRUSHED, np.eye(4)), eye=(0.0, 0.0, 1.0), near=1e-6
+    )
 
 
 def _quad(bench: Bench, tangent: tuple[float, float, float, float], rotation: float = 0.5) -> Frame:
@@ -136,7 +140,7 @@ def _quad(bench: Bench, tangent: tuple[float, float, float, float], rotation: fl
     normals, tangents = float32([[0, 0, 1]] * 4), float32([tangent] * 4)
     mesh = _core.Mesh(corners, np.array([[0, 1, 2], [0, 2, 3]], np.uint32), normals, tangents)
     lobe = _core.KurtLobe(roughness=(0.3, 0.05), alpha=0.5, rotation=rotation)
-    return draw(bench, (mesh, _core.Material(lobes=[lobe]), np.eye(4)))
+    return picture_of(bench, (mesh, _core.Material(lobes=[lobe]), np.eye(4)))
 
 
 def _facet(bench: Bench, mirror: float) -> Frame:
@@ -150,14 +154,14 @@ def _facet(bench: Bench, mirror: float) -> Frame:
     scene.environment = bench.light("smooth")
     distance = 16.0
     camera = _core.Camera(_moved(0.0, 0.0, distance), 2 * np.arctan(0.5 * SIZE[0] / distance))
-    return render(scene, camera, SIZE, _core.Regular(SAMPLES), bench.device)
+    return draw(scene, camera, SIZE, _core.Regular(SAMPLES), bench.device)
 
 
 def _two(bench: Bench, is_reversed: bool) -> Frame:
     objects = [
         (_core.Mesh.sphere(segments=24), m, _moved(x, 0, 0)) for m, x in ((MATERIAL, -0.5), (BRUSHED, 0.5))
     ]
-    return draw(bench, *(objects[::-1] if is_reversed else objects))
+    return picture_of(bench, *(objects[::-1] if is_reversed else objects))
 
 
 def _captured(bench: Bench) -> float:
@@ -250,12 +254,12 @@ def _cases() -> list[HardCase]:
         wild(
             "picture of one pixel",
             "tiles beyond the picture",
-            lambda b: draw(b, (_core.Mesh.sphere(segments=8), BRUSHED, np.eye(4)), size=(1, 1)),
+            lambda b: picture_of(b, (_core.Mesh.sphere(segments=8), BRUSHED, np.eye(4)), size=(1, 1)),
         ),
         wild(
             "NaN texel behind",
             "the background reads it, too",
-            lambda b: draw(b, (_core.Mesh.sphere(segments=8), BRUSHED, np.eye(4)), light="NaN"),
+            lambda b: picture_of(b, (_core.Mesh.sphere(segments=8), BRUSHED, np.eye(4)), light="NaN"),
         ),
         case(
             "map captured inside an object",

@@ -9,10 +9,10 @@ import numpy as np
 from burnish import _core
 from burnish.frame import FloatArray, Frame, require_comparable
 from burnish.rendering import Filter, require_filter, require_size
+from burnish.samplers import sampler_from_text, sampler_to_text
 from burnish.study.identity import digest
 from burnish.study.measure import Cell
 from burnish.study.runner import open_journal, run_cells
-from burnish.study.sampler_text import sampler_from_text, sampler_to_text
 from burnish.study.sources import LiveSource
 from burnish.study.store import PictureStore, StoredPicture
 from burnish.study.study import Study

@@ -13,7 +13,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from burnish import _core
-from burnish.rendering import Sampler, shade
+from burnish.rendering import shade
+from burnish.samplers import Sampler
 from burnish.study.calibration_points import WeightedPoints, points_at_angle
 
 Float32 = NDArray[np.float32]

@@ -76,7 +76,7 @@ def difference_figure(cells: Sequence[CellPictures], rows: Mapping[str, Any]) ->
     -------
     figure : matplotlib.figure.Figure
     """
-    from burnish.study.plots import new_figure
+    from burnish.study.figure import new_figure
 
     if not cells:
         raise ValueError("plot: expected a study that kept its pictures, got none")

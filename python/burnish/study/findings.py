@@ -1,11 +1,7 @@
 """A study in words: what was best, and what a reader must not overlook."""
 
-from typing import TYPE_CHECKING
-
+from burnish.study.data import StudyData
 from burnish.study.rows import Row, cell_title, format_value
-
-if TYPE_CHECKING:
-    from burnish.study.study import Study
 
 COARSE_REFERENCE = 1 / 3
 """Share of the least error from which the reference's own standard error spoils the ranking."""
@@ -39,12 +35,12 @@ def _of_cell(rows: list[Row]) -> list[str]:
     return lines
 
 
-def list_findings(study: "Study") -> list[str]:
+def list_findings(study: StudyData) -> list[str]:
     """Say what each cell's least error is, and what the reader must know.
 
     Parameters
     ----------
-    study : Study
+    study : StudyData
         Any.
 
     Returns

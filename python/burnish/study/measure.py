@@ -8,11 +8,11 @@ from datetime import datetime, timezone
 from functools import partial
 from typing import Any
 
-import burnish
+from burnish._version import __version__
+from burnish.samplers import sampler_from_text, sampler_parameters, sampler_to_text
 from burnish.study.identity import digest
 from burnish.study.metrics import Errors, measure_errors
 from burnish.study.rows import Row
-from burnish.study.sampler_text import sampler_from_text, sampler_parameters, sampler_to_text
 from burnish.study.sources import Source
 from burnish.study.store import PictureStore, StoredPicture
 from burnish.study.subject import Shot, Subject
@@ -45,15 +45,15 @@ class Cell:
 
     def row_key(self, sampler: str) -> str:
         """Name a row: equal for equal work, in every process and at every time."""
-        return digest(self.source.key(), sampler, self.reference, burnish.__version__)
+        return digest(self.source.key(), sampler, self.reference, __version__)
 
     def picture_key(self, sampler: str) -> str:
         """Name a sampler's picture in the store."""
-        return digest("picture", self.source.key(), sampler, burnish.__version__)
+        return digest("picture", self.source.key(), sampler, __version__)
 
     def reference_key(self) -> str:
         """Name the reference in the store."""
-        return digest("reference", self.source.reference_key(), self.reference, burnish.__version__)
+        return digest("reference", self.source.reference_key(), self.reference, __version__)
 
     def steps(self, sampler_count: int) -> int:
         """Number of pictures that measuring so many of the samplers draws: reference, warm-up, runs."""
@@ -199,7 +199,7 @@ def _row(
         "runs": timings["frame_ms"].runs,
         **subject.device_names(),
         "date": datetime.now(timezone.utc).isoformat(timespec="seconds"),
-        "version": burnish.__version__,
+        "version": __version__,
         "warnings": list(shot.warnings),
     }
 

@@ -2,19 +2,16 @@
 
 from collections.abc import Sequence
 from datetime import datetime, timezone
-from typing import TYPE_CHECKING
 
-import burnish
+from burnish._version import __version__
+from burnish.study.data import Kind, StudyData
 from burnish.study.differences import difference_figure
 from burnish.study.findings import list_findings
 from burnish.study.html_parts import COMPARE_NOTE, comparison, escape, figure_uri, fill_page
 from burnish.study.pareto import pareto_front
-from burnish.study.plots import ERROR_LABELS, Kind, curves_figure
+from burnish.study.plots import ERROR_LABELS, curves_figure
 from burnish.study.rows import Row, cell_title, format_value
 from burnish.study.store import CellPictures
-
-if TYPE_CHECKING:
-    from burnish.study.study import Study
 
 CURVES: tuple[tuple[Kind, str, str, str], ...] = (
     ("error-time", "relative_rmse", "frame_ms", "Error against the time of the whole frame"),
@@ -46,12 +43,12 @@ CURVE_DPI = 110
 DIFFERENCE_DPI = 100
 
 
-def make_page(study: "Study") -> str:
+def make_page(study: StudyData) -> str:
     """Make the page's text.
 
     Parameters
     ----------
-    study : Study
+    study : StudyData
         With at least one row.
 
     Returns
@@ -89,7 +86,7 @@ def _section(title: str, note: str, parts: Sequence[str]) -> str:
     return f'<h2>{title}</h2><p class="note">{note}</p>{"".join(parts)}' if parts else ""
 
 
-def _facts(study: "Study") -> str:
+def _facts(study: StudyData) -> str:
     """Say where, when and how the numbers came about."""
     rows = study.rows
     facts = {
@@ -98,8 +95,7 @@ def _facts(study: "Study") -> str:
         "Measured": f"{min(row['date'] for row in rows)} to {max(row['date'] for row in rows)}",
         "Burnish": _all_values(rows, "version"),
         "Reference": _all_values(rows, "reference"),
-        "Page made": datetime.now(timezone.utc).isoformat(timespec="seconds")
-        + f" by burnish {burnish.__version__}",
+        "Page made": datetime.now(timezone.utc).isoformat(timespec="seconds") + f" by burnish {__version__}",
     }
     if study.command:
         facts["Command"] = study.command
@@ -110,7 +106,7 @@ def _all_values(rows: Sequence[Row], key: str) -> str:
     return ", ".join(dict.fromkeys(str(row[key]) for row in rows))
 
 
-def _curve(study: "Study", kind: Kind, error: str, time: str, title: str) -> str:
+def _curve(study: StudyData, kind: Kind, error: str, time: str, title: str) -> str:
     uri = figure_uri(curves_figure(study.cells(), kind, error, time), CURVE_DPI)
     name = escape(title)
     return f'<figure><figcaption>{name}</figcaption><img src="{uri}" alt="{name}"></figure>'
@@ -121,7 +117,7 @@ def _difference(cell: CellPictures, names: dict[str, Row]) -> str:
     return f'<figure><img src="{uri}" alt="differences, {escape(cell_title(cell.cell))}"></figure>'
 
 
-def _table(cell: Sequence[Row], study: "Study") -> str:
+def _table(cell: Sequence[Row], study: StudyData) -> str:
     """One table for each cell; rows of the Pareto front are marked."""
     head = "".join(f'<th title="{escape(meaning)}">{escape(name)}</th>' for _, name, meaning in COLUMNS)
     front = {row["key"] for row in pareto_front(cell, "relative_rmse", "frame_ms")}

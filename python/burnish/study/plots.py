@@ -2,16 +2,12 @@
 
 from collections.abc import Callable, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Literal
+from typing import Any
 
-from burnish.study.extras import missing_extra
+from burnish.study.data import Kind, StudyData
+from burnish.study.figure import new_figure
 from burnish.study.pareto import pareto_front
 from burnish.study.rows import Row, cell_title
-
-if TYPE_CHECKING:
-    from burnish.study.study import Study
-
-Kind = Literal["error-time", "error-samples", "time-samples", "difference"]
 
 ERROR_LABELS = {
     "relative_rmse": "relative RMSE of linear radiance",
@@ -31,29 +27,6 @@ COLORS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#00
 MARKERS = ("o", "s", "^", "D", "v", "P", "X", "*")
 PANEL_INCHES = (5.2, 4.0)
 MOST_COLUMNS = 3
-
-
-def new_figure(width: float, height: float) -> Any:
-    """Make an empty figure that is drawn by Agg.
-
-    Parameters
-    ----------
-    width, height : float
-        Inches.
-
-    Raises
-    ------
-    ImportError
-        Without matplotlib.
-    """
-    try:
-        from matplotlib.backends.backend_agg import FigureCanvasAgg
-        from matplotlib.figure import Figure
-    except ImportError as error:
-        raise missing_extra("matplotlib", "study", "A plot") from error
-    figure = Figure(figsize=(width, height), layout="constrained")
-    FigureCanvasAgg(figure)
-    return figure
 
 
 def method_styles(rows: Sequence[Row]) -> dict[str, dict[str, Any]]:
@@ -209,12 +182,12 @@ def wrap_title(title: str, most_characters: int = 60) -> str:
     return "\n".join(lines)
 
 
-def make_figure(study: "Study", kind: Kind, error: str, time: str) -> Any:
+def make_figure(study: StudyData, kind: Kind, error: str, time: str) -> Any:
     """Draw what `Study.plot` names.
 
     Parameters
     ----------
-    study : Study
+    study : StudyData
         With at least one row.
     kind, error, time : str
         As for `Study.plot`.
@@ -236,7 +209,7 @@ def make_figure(study: "Study", kind: Kind, error: str, time: str) -> Any:
     return curves_figure(study.cells(), kind, error, time)
 
 
-def draw(study: "Study", path: Path, kind: Kind, error: str, time: str) -> None:
+def draw(study: StudyData, path: Path, kind: Kind, error: str, time: str) -> None:
     """Write what `make_figure` draws."""
     from burnish.images.files import replacing
 

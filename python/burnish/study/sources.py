@@ -8,8 +8,9 @@ from typing import Any, Protocol
 
 from burnish import _core, builtin
 from burnish.rendering import Filter
+from burnish.samplers import parse_value
+from burnish.scenes import find_camera, open_scene
 from burnish.study.identity import digest, make_material
-from burnish.study.sampler_text import parse_value
 from burnish.study.subject import SceneSubject, Subject
 
 Parameters = tuple[tuple[str, Any], ...]
@@ -190,11 +191,8 @@ class SceneSource:
 
     def open(self) -> Subject:
         """Load scene and environment and open a device."""
-        from burnish.cli import find_camera
-
-        is_builtin = self.scene in builtin.SCENES
-        scene = builtin.make_scene(self.scene) if is_builtin else _core.Scene.from_file(self.scene)
-        scene.name = self.scene if is_builtin else Path(self.scene).stem
+        scene = open_scene(self.scene)
+        scene.name = Path(self.scene).stem
         if self.material is not None:
             scene.set_material(0, make_material(self.material))
         scene.environment = self.environment.open()

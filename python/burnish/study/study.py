@@ -4,28 +4,19 @@ import csv
 import json
 import os
 from collections.abc import Sequence
-from dataclasses import dataclass, field
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Literal
 
 from burnish.images.files import file_error, replacing, write_text
+from burnish.study.data import ErrorName, Kind, StudyData, TimeName
 from burnish.study.pareto import pareto_front
 from burnish.study.rows import Row, cell_of, cell_title, format_value
-from burnish.study.store import CellPictures
-
-if TYPE_CHECKING:
-    from burnish.study.plots import Kind
-
-ErrorName = Literal["relative_rmse", "display_rms", "flip", "max_error", "trimmed_rmse"]
-TimeName = Literal["frame_ms", "shade_ms", "wall_ms"]
 
 FORMAT = 1
 """Of the JSON file; grows when a row changes its meaning."""
 
 
-@dataclass(eq=False)
-class Study:
-    """Errors and times of samplers.
+class Study(StudyData):
+    """Errors and times of samplers, and what can be made of them.
 
     Parameters
     ----------
@@ -48,20 +39,8 @@ class Study:
         What a reader must know, such as that workers shared a machine while they took times.
     """
 
-    rows: list[Row]
-    pictures: list[CellPictures] = field(default_factory=list)
-    command: str = ""
-    notes: list[str] = field(default_factory=list)
-
     def __repr__(self) -> str:
         return f"Study({len(self.rows)} rows, {len(self.cells())} cells)"
-
-    def cells(self) -> list[list[Row]]:
-        """Rows by cell, in order."""
-        cells: dict[tuple[Any, ...], list[Row]] = {}
-        for row in self.rows:
-            cells.setdefault(cell_of(row), []).append(row)
-        return list(cells.values())
 
     def pareto(self, error: ErrorName = "relative_rmse", time: TimeName = "frame_ms") -> list[Row]:
         """Rows that nothing in their cell beats: no other is both as fast and as accurate.
@@ -83,7 +62,7 @@ class Study:
     def plot(
         self,
         path: str | os.PathLike[str],
-        kind: "Kind" = "error-time",
+        kind: Kind = "error-time",
         error: ErrorName = "relative_rmse",
         time: TimeName = "frame_ms",
     ) -> None:

@@ -12,9 +12,9 @@ from numpy.typing import NDArray
 from burnish import _core
 from burnish._device import default_device
 from burnish.frame import FloatArray
-from burnish.rendering import Filter, render, shade
+from burnish.rendering import Filter, draw, shade
+from burnish.samplers import sampler_to_text
 from burnish.study import identity
-from burnish.study.sampler_text import sampler_to_text
 from burnish.study.timing import frame_times
 
 Sampler: TypeAlias = Any
@@ -159,7 +159,7 @@ class SceneSubject:
 
     def draw(self, sampler: Sampler, progress: Progress | None = None) -> Shot:
         """Render one frame."""
-        frame = render(
+        frame = draw(
             self._scene, self._camera, self._size, sampler, self._device, self._spp, self._filter, progress
         )
         report = frame.report
@@ -253,7 +253,7 @@ class PointsSubject:
         if text not in self._counts:
             scene = _core.Scene.sphere(self._points.material)
             scene.environment = self._points.environment
-            frame = render(scene, size=(8, 8), sampler=sampler, device=self._device, filter=self._filter)
+            frame = draw(scene, size=(8, 8), sampler=sampler, device=self._device, filter=self._filter)
             self._counts[text] = frame.report.samples_used
         return self._counts[text]
 

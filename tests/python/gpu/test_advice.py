@@ -1,7 +1,7 @@
 """The inverse question on a device: targets are met, estimates rank errors, scenes are left as they were.
 
-The whole promise, 20 combinations at three targets, is `python -m burnish.study.check_targets`, whose table
-is in docs/targets.md. Here a few small ones, with a generous bound.
+The whole promise, 20 combinations at three targets, is `python -m burnish.advice.calibration.check_targets`,
+whose table is in docs/targets.md. Here a few small ones, with a generous bound.
 """
 
 import json

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from burnish._cli_arguments import make_parser
+from burnish.cli import make_parser
 
 README = Path(__file__).parents[3] / "README.md"
 pytestmark = pytest.mark.slow

@@ -7,9 +7,10 @@ import pytest
 
 import burnish
 from burnish import environments
+from burnish.advice.calibration.calibrate import fit_share
+from burnish.advice.calibration.fit_errors import Measured, fit_family
 from burnish.advice.contrast import measure_spectrum
 from burnish.advice.error_model import BANDS, ErrorModel, LobeTraits, evaluate, lobe_features
-from burnish.study.calibrate import fit_share
 from burnish.study.calibration_points import points_at_angle
 from burnish.study.calibration_set import (
     TRAINING_LOBES,
@@ -17,7 +18,6 @@ from burnish.study.calibration_set import (
     training_environments,
     unseen_environments,
 )
-from burnish.study.fit_errors import Measured, fit_family
 
 
 def mirror(points):

@@ -10,7 +10,11 @@ import pytest
 import burnish
 import picture_support as made
 from burnish import cli
-from burnish._cli_arguments import make_parser, parse_sampler, parse_size
+from burnish.cli import make_parser
+from burnish.cli.arguments import parse_size
+from burnish.cli.inputs import prepare_scene
+from burnish.samplers import sampler_from_text as parse_sampler
+from burnish.scenes import find_camera
 
 
 def run(*arguments):
@@ -44,7 +48,7 @@ def test_samplers_are_read():
     ["", "regulr:14", "regular:many", "regular:14:exactly", "importance:5:sobol", "reference:x", "a:b:c:d"],
 )
 def test_other_samplers_are_refused(text):
-    with pytest.raises(ValueError, match="--sampler: expected matched"):
+    with pytest.raises(ValueError, match=r"^sampler: expected matched"):
         parse_sampler(text)
 
 
@@ -125,19 +129,19 @@ def test_a_part_and_a_layer_of_an_environment_are_taken(tmp_path):
     path.write_bytes(made.exr_parts(({"name": "one"}, {"Y": plane}), ({"name": "two"}, layers)))
     arguments = ["explain", "sphere", "--env", str(path), "--env-part", "two", "--env-layer", "b"]
     options = make_parser().parse_args(arguments)
-    np.testing.assert_allclose(cli.prepare_scene(options).environment.faces, 2.0, rtol=1e-6)
+    np.testing.assert_allclose(prepare_scene(options).environment.faces, 2.0, rtol=1e-6)
 
 
 def test_cameras_are_found_by_name_and_index():
     scene = burnish.Scene.sphere(burnish.Material())
     for name in ("front", "1"):
         scene.add_camera(burnish.Camera(np.eye(4), name=name))
-    assert cli.find_camera(scene, None) is None
-    assert cli.find_camera(scene, "front").name == "front"
-    assert cli.find_camera(scene, "0").name == "front"
-    assert cli.find_camera(scene, "1").name == "1"
+    assert find_camera(scene, None) is None
+    assert find_camera(scene, "front").name == "front"
+    assert find_camera(scene, "0").name == "front"
+    assert find_camera(scene, "1").name == "1"
     with pytest.raises(ValueError, match=r"--camera: expected one of 0 \(front\), 1 \(1\), got 'back'"):
-        cli.find_camera(scene, "back")
+        find_camera(scene, "back")
 
 
 def test_render_writes_what_is_asked_for(tmp_path):

@@ -8,7 +8,8 @@ import pytest
 
 import burnish
 from burnish import _extension
-from burnish.doctor import DoctorReport, Finding, _packages
+from burnish.doctor import DoctorReport, Finding
+from burnish.doctor.examination import _packages
 
 WITHOUT_EXTENSION = """
 import sys
@@ -123,7 +124,7 @@ def test_doctor_reports_an_engine_that_breaks(device, monkeypatch):
     def broken(device):
         raise RuntimeError("lost\nit")
 
-    monkeypatch.setattr("burnish._self_test.run_self_test", broken)
+    monkeypatch.setattr(sys.modules["burnish.doctor.self_test"], "run_self_test", broken)
     report = burnish.doctor(device)
     assert not report.can_render
     assert "RuntimeError: lost it" in str(report)

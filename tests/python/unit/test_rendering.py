@@ -7,8 +7,7 @@ import pytest
 
 import burnish
 from burnish import rendering
-from burnish._cli_arguments import DEFAULT_SAMPLER
-from burnish.study.sampler_text import sampler_to_text
+from burnish.samplers import DEFAULT_SAMPLER, sampler_to_text
 
 UP = np.array([[0, 0, 1]] * 4, np.float32)
 

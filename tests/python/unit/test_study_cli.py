@@ -5,11 +5,12 @@ import argparse
 import pytest
 
 import burnish
-from burnish import _cli_study, cli
-from burnish._cli_study import default_samplers, parse_roughness
+from burnish import cli
+from burnish.cli.study import DEFAULT_SAMPLERS
+from burnish.cli.study_arguments import parse_roughness
+from burnish.samplers import expand_counts, sampler_from_text
 from burnish.study.journal import Journal
 from burnish.study.runner import StudyInterrupted, run_cells
-from burnish.study.sampler_text import expand_counts, sampler_from_text
 from burnish.study.store import PictureStore
 from study_support import FakeSubject, make_cell
 
@@ -37,7 +38,7 @@ def test_roughness_is_one_slope_or_two():
 
 
 def test_default_samplers_are_all_there():
-    texts = [one for text in default_samplers() for one in expand_counts(text)]
+    texts = [one for text in DEFAULT_SAMPLERS for one in expand_counts(text)]
     kinds = {type(sampler_from_text(text)).__name__ for text in texts}
     wanted = {"Regular", "Importance", "Matched", "Prefiltered"}
     assert kinds == {name for name in wanted if hasattr(burnish._core, name)}
@@ -142,7 +143,7 @@ def test_errors_are_one_line_and_exit_code_2(capfd, tmp_path, monkeypatch, argum
 
 def test_missing_packages_are_named_before_the_work(monkeypatch, capsys, tmp_path):
     monkeypatch.setitem(__import__("sys").modules, "matplotlib.figure", None)
-    monkeypatch.setattr(_cli_study, "_measure", lambda options: pytest.fail("measured all the same"))
+    monkeypatch.setattr("burnish.cli.study._measure", lambda options: pytest.fail("measured all the same"))
     assert cli.main(["study", "sphere", "-o", str(tmp_path / "page.html")]) == 2
     assert "needs the package matplotlib; install it with: pip install" in capsys.readouterr().err
 

@@ -8,11 +8,11 @@ import pytest
 import burnish
 from burnish import cli, environments
 from burnish.cube_layout import cube_solid_angles
+from burnish.samplers import sampler_from_text, sampler_to_text
 from burnish.study import paper as reproduction
 from burnish.study.paper.formulas import estimator_in_furnace, grazing_albedos, pattern_counts
 from burnish.study.paper.settings import CELLS, PaperSettings
 from burnish.study.paper.truth import reduce_environment, truth_maps
-from burnish.study.sampler_text import sampler_from_text, sampler_to_text
 
 
 def flux_and_moment(environment):

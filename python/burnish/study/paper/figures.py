@@ -6,10 +6,11 @@ from typing import Any
 import numpy as np
 
 from burnish.study.differences import BACKGROUND, COLORMAP, difference_range, object_box
+from burnish.study.figure import new_figure
 from burnish.study.metrics import signed_difference
 from burnish.study.paper.judging import fit_frames
 from burnish.study.paper.settings import DIFFERENCES, ROLE_NAMES, SHARES
-from burnish.study.plots import COLORS, MARKERS, new_figure
+from burnish.study.plots import COLORS, MARKERS
 from burnish.study.store import CellPictures
 
 FRAME_ROLES = ("published", "importance", "matched", "prefiltered")

@@ -2,14 +2,15 @@
 
 import json
 import os
-from dataclasses import asdict, dataclass, field
+from dataclasses import asdict
 from datetime import datetime, timezone
 from typing import Any
 
-import burnish
 from burnish import _core, environments
 from burnish._device import default_device
+from burnish._version import __version__
 from burnish.images.files import write_text
+from burnish.study.paper.data import PaperData
 from burnish.study.paper.formulas import examine_formulas
 from burnish.study.paper.pictures import draw_cells, picture_steps
 from burnish.study.paper.settings import FILTERS, PaperSettings
@@ -23,9 +24,8 @@ FORMAT = 1
 """Of the JSON file; grows when a number changes its meaning."""
 
 
-@dataclass(eq=False)
-class Paper:
-    """The reproduction.
+class Paper(PaperData):
+    """The reproduction, and what can be made of it.
 
     Parameters
     ----------
@@ -35,9 +35,6 @@ class Paper:
     pictures : dict of CellPictures
         By the name of the cell.
     """
-
-    numbers: dict[str, Any]
-    pictures: dict[str, CellPictures] = field(default_factory=dict)
 
     def __repr__(self) -> str:
         return f"Paper({len(self.numbers['pictures'])} pictures, {len(self.numbers['frames'])} frames)"
@@ -106,7 +103,7 @@ def measure_paper(
         "driver": device.driver,
         "is_software": device.is_software,
         "date": datetime.now(timezone.utc).isoformat(timespec="seconds"),
-        "version": burnish.__version__,
+        "version": __version__,
         "settings": asdict(settings),
         "formulas": examine_formulas(),
         "pictures": [],

@@ -2,21 +2,19 @@
 
 from collections.abc import Sequence
 from datetime import datetime, timezone
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
-import burnish
+from burnish._version import __version__
 from burnish.study.differences import display_picture, object_box
 from burnish.study.html_parts import COMPARE_NOTE, comparison, escape, figure_uri, fill_page, picture_uri
 from burnish.study.metrics import display_scale
+from burnish.study.paper.data import PaperData
 from burnish.study.paper.figures import difference_figure, frame_figure
 from burnish.study.paper.judging import ORIGINS, find_errors, fit_frames, geometric_mean
 from burnish.study.paper.settings import CELLS, COMPARED, FILTERS, MATCHED_MOST, ROLE_NAMES, PaperCell
 from burnish.study.paper.verdicts import list_verdicts
 from burnish.study.rows import format_value
 from burnish.study.store import CellPictures, StoredPicture
-
-if TYPE_CHECKING:
-    from burnish.study.paper.measure import Paper
 
 DPI = 110
 SHOWN_ROLES = ("published", "importance", "importance_bias", "matched", "prefiltered")
@@ -29,12 +27,12 @@ SECTIONS = {
 """Items whose verdicts stand in a section of the page as well."""
 
 
-def make_page(paper: "Paper") -> str:
+def make_page(paper: PaperData) -> str:
     """Make the page's text.
 
     Parameters
     ----------
-    paper : Paper
+    paper : PaperData
         With its pictures.
 
     Returns
@@ -74,8 +72,7 @@ def _facts(numbers: dict[str, Any]) -> str:
         "compilation apart",
         "Device": f"{numbers['device']}, {numbers['driver']}",
         "Measured": numbers["date"],
-        "Page made": datetime.now(timezone.utc).isoformat(timespec="seconds")
-        + f" by burnish {burnish.__version__}",
+        "Page made": datetime.now(timezone.utc).isoformat(timespec="seconds") + f" by burnish {__version__}",
     }
     if numbers["command"]:
         facts["Command"] = numbers["command"]
@@ -176,7 +173,7 @@ def _cell_heading(cell: PaperCell) -> str:
     return f"{cell.printed_samples} samples, m {slopes}, xi0 {cell.threshold:g}"
 
 
-def _picture_row(cell: PaperCell, paper: "Paper", labels: dict[tuple[str, str], str]) -> str:
+def _picture_row(cell: PaperCell, paper: PaperData, labels: dict[tuple[str, str], str]) -> str:
     drawn = paper.pictures[cell.name]
     crop = object_box(drawn.reference.covered)
     scale = display_scale(drawn.reference.color[drawn.reference.covered])
@@ -191,7 +188,7 @@ def _picture_row(cell: PaperCell, paper: "Paper", labels: dict[tuple[str, str], 
     return f'<h3>{escape(_cell_heading(cell))}</h3><div class="row">{"".join(figures)}</div>'
 
 
-def _comparison(cell: PaperCell, paper: "Paper") -> str:
+def _comparison(cell: PaperCell, paper: PaperData) -> str:
     drawn = paper.pictures[cell.name]
     crop = object_box(drawn.reference.covered)
     reference = StoredPicture(drawn.reference.color[crop], drawn.reference.covered[crop])

@@ -9,12 +9,12 @@ import numpy as np
 from burnish import _core
 from burnish.frame import FloatArray
 from burnish.rendering import Filter
+from burnish.samplers import sampler_from_text
 from burnish.study.measure import Step, largest_count
 from burnish.study.metrics import measure_errors
 from burnish.study.paper.scenes import glossy, sphere_camera, sphere_scene
 from burnish.study.paper.settings import CELLS, FILTER_CELL, FILTERS, PaperCell, PaperSettings
 from burnish.study.paper.truth import Truth, draw_truth
-from burnish.study.sampler_text import sampler_from_text
 from burnish.study.store import CellPictures, StoredPicture
 from burnish.study.subject import SceneSubject, Shot
 

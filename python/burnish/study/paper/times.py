@@ -5,10 +5,10 @@ from functools import partial
 from typing import Any
 
 from burnish import _core
+from burnish.samplers import sampler_from_text
 from burnish.study.measure import Step, largest_count
 from burnish.study.paper.scenes import glossy, wall_camera, wall_scene
 from burnish.study.paper.settings import FILTERS, SHARES, PaperSettings
-from burnish.study.sampler_text import sampler_from_text
 from burnish.study.subject import SceneSubject, Shot
 from burnish.study.timing import AlternatingRuns, Timing
 

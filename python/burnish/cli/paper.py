@@ -3,7 +3,7 @@
 import argparse
 import sys
 
-from burnish._cli_study import PAPER_REPEATS, add_study_arguments, require_outputs
+from burnish.cli.study_arguments import PAPER_REPEATS, add_arguments, require_outputs
 
 TAKEN = ("paper", "quick", "repeats", "device", "output", "json", "quiet")
 """Arguments of ``burnish study`` that mean something here; the paper decides about the others."""
@@ -12,7 +12,7 @@ TAKEN = ("paper", "quick", "repeats", "device", "output", "json", "quiet")
 def _refuse_others(options: argparse.Namespace) -> None:
     """Raise ValueError for an argument that would have no effect."""
     parser = argparse.ArgumentParser()
-    add_study_arguments(parser)
+    add_arguments(parser)
     for name, default in vars(parser.parse_args([])).items():
         value = getattr(options, name)
         if name not in TAKEN and value != default:
@@ -21,8 +21,14 @@ def _refuse_others(options: argparse.Namespace) -> None:
 
 
 def run_paper(options: argparse.Namespace) -> int:
-    """Measure, write and print: 0 done, 130 interrupted, with nothing written."""
-    from burnish import Device
+    """Measure, write and print: 0 done, 130 interrupted, with nothing written.
+
+    Parameters
+    ----------
+    options : Namespace
+        Of ``burnish study``.
+    """
+    from burnish._core import Device
     from burnish.study.accuracy import require_repeats
     from burnish.study.paper import PaperSettings, list_verdicts, measure_paper
 

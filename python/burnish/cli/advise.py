@@ -1,10 +1,15 @@
-"""``burnish advise``: what it takes, its help, and what it does."""
+"""``burnish advise``: the cheapest sampler that meets an error."""
 
 import argparse
+import json
+from pathlib import Path
 
-ADVISE_HELP = "say which sampler and count meet an error, at what price"
+from burnish._progress import progress_bar
+from burnish.cli.arguments import TARGET_HELP, add_scene_arguments, add_view_arguments, parse_target
 
-ADVISE_DESCRIPTION = """\
+HELP = "say which sampler and count meet an error, at what price"
+
+DESCRIPTION = """\
 Find the cheapest sampler and count whose error stays below a target, before the large picture is rendered.
 
 Errors are first predicted by a model (lobes, angles, contrast of the environment), then measured on a small
@@ -15,7 +20,7 @@ The error is the relative RMSE of linear radiance where objects are. The table s
 choice, those that were measured, and the best of every other sampler; "Pareto" marks what nothing else beats.
 """
 
-ADVISE_EXAMPLES = """\
+EXAMPLES = """\
 examples:
   burnish advise sphere --env spots --target-error 0.02
   burnish advise model.glb --env world.exr --target-error 0.01 --size 1080x1920 --verify
@@ -24,39 +29,20 @@ examples:
 The same --target-error makes "burnish render" render with what is advised.
 """
 
-TARGET_HELP = "relative RMSE of linear radiance where objects are: 0.02 is 2 %%"
 
-
-def parse_target(text: str) -> float:
-    """Read an error such as ``0.02``."""
-    try:
-        value = float(text.removesuffix("%")) / (100.0 if text.endswith("%") else 1.0)
-    except ValueError:
-        value = 0.0
-    if not 1e-4 <= value <= 1.0:
-        raise argparse.ArgumentTypeError(f"expected an error such as 0.02 or 2%, in 0.0001..1, got {text!r}")
-    return value
-
-
-def add_advise_arguments(parser: argparse.ArgumentParser) -> None:
-    """Declare what only this command takes; scene and light are declared by the caller.
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Declare the arguments.
 
     Parameters
     ----------
     parser : ArgumentParser
         Of the subcommand.
     """
-    from burnish._cli_arguments import parse_size
-
-    parser.description = ADVISE_DESCRIPTION
+    add_scene_arguments(parser, has_sampler=False)
     parser.add_argument(
         "--target-error", type=parse_target, default=0.02, metavar="E", help=f"{TARGET_HELP} (default: 0.02)"
     )
-    parser.add_argument(
-        "--size", type=parse_size, default=(540, 960), metavar="HxW", help="height x width (default: 540x960)"
-    )
-    parser.add_argument("--camera", metavar="NAME|INDEX", help="a camera of the scene (default: the first)")
-    parser.add_argument("--device", metavar="NAME", help="part of a Vulkan device's name (default: the best)")
+    add_view_arguments(parser)
     parser.add_argument(
         "--no-probe",
         action="store_true",
@@ -69,18 +55,21 @@ def add_advise_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--report", metavar="FILE", help="write the advice as JSON")
 
 
-def run_advise(options: argparse.Namespace) -> int:
-    """``burnish advise``: 0 where a sampler meets the target, 1 where none is predicted to."""
-    import json
-    from pathlib import Path
+def run(options: argparse.Namespace) -> int:
+    """Print the advice; 0 where a sampler meets the target, 1 where none is predicted to.
 
-    from burnish import Device
+    Parameters
+    ----------
+    options : Namespace
+        As `add_arguments` declares them.
+    """
+    from burnish._core import Device
     from burnish._device import default_device
-    from burnish._progress import progress_bar
     from burnish.advice import advise
     from burnish.advice.cost_model import CostModel
-    from burnish.cli import find_camera, prepare_scene
+    from burnish.cli.inputs import prepare_scene
     from burnish.images.files import write_text
+    from burnish.scenes import find_camera
 
     if options.report and not Path(options.report).parent.is_dir():
         raise ValueError(f"{options.report}: expected an existing folder, got {Path(options.report).parent}")

@@ -3,7 +3,7 @@
 import pytest
 
 import burnish
-from burnish.study.sampler_text import expand_counts, sampler_from_text, sampler_parameters, sampler_to_text
+from burnish.samplers import expand_counts, sampler_from_text, sampler_parameters, sampler_to_text
 
 PAIRS = [
     (lambda: burnish.Regular(14), "regular:14"),

@@ -1,4 +1,6 @@
-"""Judge the advice: ``python -m burnish.study.check_targets`` asks for errors and measures what is reached.
+"""Judge the advice: ask for errors, and measure what is reached.
+
+``python -m burnish.advice.calibration.check_targets``
 
 Pictures of scenes under environments that the error model was not fitted to. The error that is reached is
 that of the very picture that was asked for: of lobes alone against a sum over every texel, with ``--diffuse``
@@ -18,11 +20,11 @@ from pathlib import Path
 
 import numpy as np
 
-import burnish
 from burnish._device import default_device
+from burnish._version import __version__
 from burnish.advice import Advice
+from burnish.advice.calibration.target_combinations import SIZE, Combination, diffuse_cases, lobe_cases
 from burnish.images.files import write_text
-from burnish.study.target_combinations import SIZE, Combination, diffuse_cases, lobe_cases
 
 TARGETS = (0.05, 0.02, 0.01)
 WITHIN, NEVER_ABOVE, LEAST_SHARE = 1.3, 2.0, 0.95
@@ -155,7 +157,9 @@ def format_estimates(estimates: Sequence[tuple[str, str, list[tuple[float, float
 
 def main() -> int:
     """Check all combinations; 0 where the promise holds."""
-    parser = argparse.ArgumentParser(prog="python -m burnish.study.check_targets", description=__doc__)
+    parser = argparse.ArgumentParser(
+        prog="python -m burnish.advice.calibration.check_targets", description=__doc__
+    )
     parser.add_argument("--no-probe", action="store_true", help="judge the error model alone")
     parser.add_argument("--diffuse", action="store_true", help="scenes with diffuse parts")
     parser.add_argument("--data", type=Path, help="folder of environments and scenes, for --diffuse")
@@ -175,10 +179,10 @@ def main() -> int:
     device = default_device()
     words = ["--diffuse"] * options.diffuse + ["--no-probe"] * options.no_probe
     words += [f"--every {options.every}"] if options.every > 1 else []
-    command = " ".join(["python -m burnish.study.check_targets", *words])
+    command = " ".join(["python -m burnish.advice.calibration.check_targets", *words])
     date = datetime.now(timezone.utc).date().isoformat()
     lines = [
-        f"`{command}`, {date}, {device.name}, {device.driver}, burnish {burnish.__version__}; "
+        f"`{command}`, {date}, {device.name}, {device.driver}, burnish {__version__}; "
         f"{SIZE[1]} x {SIZE[0]} pixels.",
         "",
         *(f"- {line}" for line in summarize_outcomes(outcomes)),

@@ -14,9 +14,9 @@ from burnish.advice.reduced_maps import reduced_face_size
 from burnish.advice.truth import draw_dense, draw_truth
 from burnish.environments import cube_directions
 from burnish.frame import Frame
-from burnish.rendering import render
+from burnish.render import render
+from burnish.samplers import sampler_from_text
 from burnish.study.calibration_set import FACE_SIZE, UNSEEN_LOBES, unseen_environments
-from burnish.study.sampler_text import sampler_from_text
 
 SIZE = (112, 112)
 STANDARD_ERROR, MOST_SAMPLES = 0.003, 1 << 16

@@ -8,34 +8,20 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 from importlib import metadata
 from pathlib import Path
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING
 
 from burnish._extension import INSTALL_LOADER, load_failure
+from burnish.doctor.finding import Finding, Status
 
 if TYPE_CHECKING:
-    from burnish import Device
+    from burnish._core import Device
     from burnish.hardcases import Table
 
-Status = Literal["ok", "note", "missing", "failed"]
 Progress = Callable[[float, str], None]
 
 INSTALL_DRIVER = "sudo apt-get install mesa-vulkan-drivers"
 INSTALL_LAYERS = "sudo apt-get install vulkan-validationlayers"
 SHOWN_LIMITS = ("max_image_dimension_2d", "max_image_dimension_cube", "max_allocation_bytes")
-
-
-@dataclass
-class Finding:
-    """One line of the doctor's report."""
-
-    name: str
-    status: Status
-    text: str
-    remedy: str = ""
-
-    def __str__(self) -> str:
-        line = f"  [{self.status:^7}] {self.name}: {self.text}"
-        return f"{line}\n{'':12}-> {self.remedy}" if self.remedy else line
 
 
 @dataclass
@@ -223,7 +209,7 @@ def examine(
         return report
 
     from burnish._core import Device, VulkanError
-    from burnish._self_test import run_self_test
+    from burnish.doctor.self_test import run_self_test
 
     try:
         device = device or Device(name=name)

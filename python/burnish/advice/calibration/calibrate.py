@@ -1,4 +1,4 @@
-"""Calibrate the error model: ``python -m burnish.study.calibrate`` measures, fits, and writes.
+"""Calibrate the error model: ``python -m burnish.advice.calibration.calibrate`` measures, fits, and writes.
 
 Every sampler shades points that see all of a map under one angle; the truth is the sum over every texel of
 the reduced map. Takes some minutes on two cores, most of them compiling; needs scipy (``pip install
@@ -16,9 +16,10 @@ from typing import Any
 
 import numpy as np
 
-import burnish
 from burnish import _core
 from burnish._device import default_device
+from burnish._version import __version__
+from burnish.advice.calibration.fit_errors import Measured, fit_family
 from burnish.advice.contrast import measure_spectrum
 from burnish.advice.error_estimate import companion
 from burnish.advice.error_model import lobe_features, traits_of_lobe
@@ -28,12 +29,11 @@ from burnish.advice.truth import extrapolate
 from burnish.frame import FloatArray
 from burnish.images.files import write_text
 from burnish.rendering import shade
+from burnish.samplers import sampler_from_text
 from burnish.study.calibration_points import WeightedPoints, points_at_angle
 from burnish.study.calibration_set import TRAINING_LOBES, training_environments
-from burnish.study.fit_errors import Measured, fit_family
-from burnish.study.sampler_text import sampler_from_text
 
-OUTPUT = Path(__file__).parents[1] / "advice" / "error_model.json"
+OUTPUT = Path(__file__).parents[1] / "error_model.json"
 COSINES = (0.95, 0.7, 0.4)
 POINTS = 150
 SEED = 20140620
@@ -127,7 +127,9 @@ def fit_share(pairs: list[tuple[int, float]]) -> dict[str, float]:
 
 def main() -> int:
     """Measure, fit, write."""
-    parser = argparse.ArgumentParser(prog="python -m burnish.study.calibrate", description=__doc__)
+    parser = argparse.ArgumentParser(
+        prog="python -m burnish.advice.calibration.calibrate", description=__doc__
+    )
     parser.add_argument(
         "-o", "--output", type=Path, default=OUTPUT, help="where to write (default: in place)"
     )
@@ -143,10 +145,10 @@ def main() -> int:
             print(f"{name}: {lobe_name}", flush=True)
     device = default_device()
     data: dict[str, Any] = {
-        "command": "python -m burnish.study.calibrate",
+        "command": "python -m burnish.advice.calibration.calibrate",
         "date": datetime.now(timezone.utc).date().isoformat(),
         "device": f"{device.name}, {device.driver}",
-        "version": burnish.__version__,
+        "version": __version__,
         "environments": names,
         "lobes": list(TRAINING_LOBES),
         "families": {},

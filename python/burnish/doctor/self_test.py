@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from burnish._core import Device, Environment, Importance, KurtLobe, Material, Reference, Regular
-from burnish.doctor import Finding
+from burnish.doctor.finding import Finding
 from burnish.oracle.albedo import directional_albedo
 from burnish.rendering import shade
 
