@@ -7,7 +7,7 @@
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
-#include "burnish/scene/environment.h"
+#include "burnish/light/environment.h"
 #include "interpreter.h"
 #include "numpy.h"
 

@@ -6,7 +6,7 @@
 #include <pybind11/stl.h>
 
 #include "burnish/render/renderer.h"
-#include "burnish/sampling/prefilter_table.h"
+#include "burnish/sampler/prefilter_table.h"
 #include "interpreter.h"
 #include "numpy.h"
 

@@ -5,7 +5,7 @@
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
-#include "burnish/scene/hdr.h"
+#include "burnish/light/hdr.h"
 #include "burnish/scene/png16.h"
 #include "interpreter.h"
 #include "numpy.h"

@@ -2,7 +2,7 @@
 
 #include <pybind11/stl/filesystem.h>
 
-#include "burnish/scene/check.h"
+#include "burnish/check.h"
 #include "burnish/scene/scene.h"
 #include "interpreter.h"
 #include "scene_values.h"

@@ -13,7 +13,7 @@ void bind_vulkan(py::module_& m);
 void bind_environment(py::module_& m);
 void bind_pictures(py::module_& m);
 void bind_scene(py::module_& m);
-void bind_sampling(py::module_& m);
+void bind_sampler(py::module_& m);
 void bind_render(py::module_& m);
 void bind_maps(py::module_& m);
 void bind_shared(py::module_& m);
@@ -50,7 +50,7 @@ PYBIND11_MODULE(_core, m) {
     burnish::bind_environment(m);
     burnish::bind_pictures(m);
     burnish::bind_scene(m);
-    burnish::bind_sampling(m);
+    burnish::bind_sampler(m);
     burnish::bind_render(m);
     burnish::bind_maps(m);
     burnish::bind_shared(m);

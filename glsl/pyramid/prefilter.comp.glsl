@@ -17,7 +17,7 @@ layout(local_size_x = 64) in;
 layout(constant_id = SPEC_PREFILTER_IS_SPHERICAL) const bool IS_SPHERICAL = false;
 
 layout(push_constant) uniform Push { PrefilterRecord record; };
-// See build_prefilter_table and build_spherical_table in cpp/burnish/sampling/prefilter_table.h.
+// See build_prefilter_table and build_spherical_table in cpp/burnish/sampler/prefilter_table.h.
 layout(binding = BINDING_PREFILTER_SAMPLES, rgba32f) uniform readonly imageBuffer samples;
 // Half RGBA.
 layout(std430, binding = BINDING_PREFILTER_TEXELS) writeonly buffer Texels { uvec2 texels[]; };

@@ -1,4 +1,4 @@
-// Suns that were taken out of the map (cpp/burnish/sampling/sun_split.h), shaded directly.
+// Suns that were taken out of the map (cpp/burnish/light/sun_split.h), shaded directly.
 #ifndef BURNISH_SHADE_SUNS
 #define BURNISH_SHADE_SUNS
 

@@ -18,7 +18,7 @@ SHARED_CONST uint MAX_CONSTANT_SAMPLES = 64u;
 // compile, 240 took 18 s.
 SHARED_CONST uint MAX_UNROLLED_SAMPLES = 80u;
 
-// Nodes of albedo tables, see cpp/burnish/sampling/albedo_table.h: cosines of the view and roughnesses lie at squares, so that they
+// Nodes of albedo tables, see cpp/burnish/lobe/albedo_table.h: cosines of the view and roughnesses lie at squares, so that they
 // are dense where both are small.
 SHARED_CONST uint ALBEDO_COS_NODES = 128u;
 SHARED_CONST uint ALBEDO_ROUGHNESS_NODES = 32u; // of round lobes whose roughness varies

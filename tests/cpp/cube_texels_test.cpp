@@ -1,7 +1,7 @@
 // What is summed over a cube's texels: solid angles, harmonics, tables to draw them by.
-#include "burnish/sampling/cube_texels.h"
-#include "burnish/sampling/spherical_harmonics.h"
-#include "burnish/sampling/texel_alias.h"
+#include "burnish/light/cube_texels.h"
+#include "burnish/light/spherical_harmonics.h"
+#include "burnish/light/texel_alias.h"
 #include "error_message.h"
 #include "made_environments.h"
 

@@ -1,4 +1,4 @@
-#include "burnish/scene/environment.h"
+#include "burnish/light/environment.h"
 #include "error_message.h"
 
 #include <array>

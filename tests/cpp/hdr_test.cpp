@@ -1,4 +1,4 @@
-#include "burnish/scene/hdr.h"
+#include "burnish/light/hdr.h"
 
 #include <array>
 #include <cstdlib>

@@ -1,6 +1,6 @@
 // Diffuse light: cosine sums over a map's texels, and the cube of them.
-#include "burnish/sampling/irradiance_cube.h"
-#include "burnish/sampling/spherical_harmonics.h"
+#include "burnish/light/irradiance_cube.h"
+#include "burnish/light/spherical_harmonics.h"
 #include "error_message.h"
 #include "made_environments.h"
 #include "shared/constants.h"

@@ -1,7 +1,7 @@
 // Environments made by code, for tests.
 #pragma once
 
-#include "burnish/scene/environment.h"
+#include "burnish/light/environment.h"
 
 #include <cmath>
 #include <functional>

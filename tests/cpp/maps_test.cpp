@@ -1,6 +1,6 @@
 #include "burnish/plan/map_lookup.h"
 #include "burnish/render/environment_maps.h"
-#include "burnish/sampling/prefilter_table.h"
+#include "burnish/sampler/prefilter_table.h"
 #include "error_message.h"
 #include "made_environments.h"
 #include "shared/prefilter.h"

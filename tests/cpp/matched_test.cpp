@@ -3,11 +3,11 @@
 
 #include <gtest/gtest.h>
 
-#include "burnish/sampling/matched_table.h"
-#include "burnish/sampling/matched_view_table.h"
-#include "burnish/sampling/prefilter_table.h"
-#include "burnish/sampling/sampler.h"
-#include "burnish/sampling/sun_split.h"
+#include "burnish/light/sun_split.h"
+#include "burnish/sampler/matched_table.h"
+#include "burnish/sampler/matched_view_table.h"
+#include "burnish/sampler/prefilter_table.h"
+#include "burnish/sampler/sampler.h"
 #include "shared/constants.h"
 
 namespace burnish {

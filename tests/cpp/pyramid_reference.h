@@ -1,8 +1,8 @@
 // The pyramid's definition in float64, written for clarity and apart from the engine's.
 #pragma once
 
-#include "burnish/sampling/pyramid_filter.h"
-#include "burnish/scene/environment.h"
+#include "burnish/light/environment.h"
+#include "burnish/light/pyramid_filter.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 // The engine without Python: frames, points and captured maps on the device of these tests.
+#include "burnish/lobe/albedo_table.h"
 #include "burnish/render/capture.h"
 #include "burnish/render/renderer.h"
-#include "burnish/sampling/albedo_table.h"
 #include "burnish/vulkan/device.h"
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 // Radiance pictures: any bytes give a picture of the declared size or FileError, nothing else.
 #include "burnish/error.h"
-#include "burnish/scene/hdr.h"
+#include "burnish/light/hdr.h"
 #include "one_file.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {

@@ -2,7 +2,7 @@
 // nothing else.
 #include <stdexcept>
 
-#include "burnish/scene/gltf_image.h"
+#include "burnish/scene/gltf/image.h"
 #include "burnish/scene/png16.h"
 
 namespace {

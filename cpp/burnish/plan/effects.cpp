@@ -6,7 +6,7 @@
 
 #include "burnish/error.h"
 #include "burnish/plan/material_traits.h"
-#include "burnish/sampling/matched_view_table.h"
+#include "burnish/sampler/matched_view_table.h"
 #include "burnish/scene/texture_kinds.h"
 
 namespace burnish {

@@ -8,7 +8,7 @@
 #include "burnish/error.h"
 #include "burnish/plan/effects.h"
 #include "burnish/plan/material_traits.h"
-#include "burnish/sampling/matched_view_table.h"
+#include "burnish/sampler/matched_view_table.h"
 #include "shared/constants.h"
 
 namespace burnish {

@@ -9,10 +9,10 @@
 #include <string>
 #include <vector>
 
+#include "burnish/light/pyramid_filter.h"
+#include "burnish/light/sun_split.h"
 #include "burnish/plan/map_lookup.h"
-#include "burnish/sampling/pyramid_filter.h"
-#include "burnish/sampling/sampler.h"
-#include "burnish/sampling/sun_split.h"
+#include "burnish/sampler/sampler.h"
 #include "burnish/scene/scene.h"
 
 namespace burnish {

@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "burnish/error.h"
-#include "burnish/sampling/cube_texels.h"
+#include "burnish/light/cube_texels.h"
 
 namespace burnish::render {
 namespace {

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <span>
 
+#include "burnish/light/spherical_harmonics.h"
 #include "burnish/render/stopwatch.h"
-#include "burnish/sampling/spherical_harmonics.h"
 #include "burnish/vulkan/transfer.h"
 #include "shared/constants.h"
 

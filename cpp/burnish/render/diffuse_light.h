@@ -7,10 +7,10 @@
 #include <optional>
 #include <vector>
 
+#include "burnish/light/environment.h"
+#include "burnish/light/irradiance_cube.h"
 #include "burnish/plan/plan.h"
-#include "burnish/sampling/irradiance_cube.h"
-#include "burnish/sampling/sampler.h"
-#include "burnish/scene/environment.h"
+#include "burnish/sampler/sampler.h"
 #include "burnish/vulkan/commands.h"
 #include "burnish/vulkan/element_buffer.h"
 

@@ -1,9 +1,9 @@
 // A set of environments on the device: one cube array with all levels.
 #pragma once
 
+#include "burnish/light/environment.h"
 #include "burnish/render/prefilter.h"
 #include "burnish/render/pyramid.h"
-#include "burnish/scene/environment.h"
 #include "burnish/vulkan/element_buffer.h"
 
 #include <memory>

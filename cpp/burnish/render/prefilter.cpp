@@ -1,7 +1,7 @@
 #include "burnish/render/prefilter.h"
 
 #include "burnish/render/shade_variant.h"
-#include "burnish/sampling/prefilter_table.h"
+#include "burnish/sampler/prefilter_table.h"
 #include "burnish/vulkan/transfer.h"
 #include "shared/constants.h"
 #include "shared/prefilter.h"

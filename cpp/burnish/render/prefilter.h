@@ -2,9 +2,9 @@
 // under a Gaussian that is round on the sphere.
 #pragma once
 
+#include "burnish/light/pyramid_filter.h"
 #include "burnish/plan/map_lookup.h"
 #include "burnish/render/level_texels.h"
-#include "burnish/sampling/pyramid_filter.h"
 #include "burnish/vulkan/commands.h"
 #include "burnish/vulkan/device.h"
 #include "burnish/vulkan/element_buffer.h"

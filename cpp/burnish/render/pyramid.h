@@ -1,9 +1,9 @@
 // Mip pyramids of cube maps: every level filtered from the one above it, across the edges of the faces.
 #pragma once
 
+#include "burnish/light/environment.h"
+#include "burnish/light/pyramid_filter.h"
 #include "burnish/render/level_texels.h"
-#include "burnish/sampling/pyramid_filter.h"
-#include "burnish/scene/environment.h"
 #include "burnish/vulkan/commands.h"
 #include "burnish/vulkan/device.h"
 #include "burnish/vulkan/element_buffer.h"

@@ -3,8 +3,8 @@
 #include <cmath>
 
 #include "burnish/error.h"
+#include "burnish/light/texel_alias.h"
 #include "burnish/render/renderer.h"
-#include "burnish/sampling/texel_alias.h"
 #include "burnish/vulkan/device.h"
 #include "burnish/vulkan/transfer.h"
 #include "shared/constants.h"

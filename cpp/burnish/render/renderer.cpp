@@ -4,9 +4,9 @@
 #include <cmath>
 
 #include "burnish/error.h"
+#include "burnish/render/filter_offsets.h"
 #include "burnish/render/stopwatch.h"
 #include "burnish/render/view.h"
-#include "burnish/sampling/filter_offsets.h"
 #include "burnish/vulkan/device.h"
 #include "burnish/vulkan/transfer.h"
 #include "shared/constants.h"

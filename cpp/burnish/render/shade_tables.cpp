@@ -8,7 +8,7 @@
 #include "burnish/error.h"
 #include "burnish/plan/material_traits.h"
 #include "burnish/render/table_writer.h"
-#include "burnish/sampling/prefilter_table.h"
+#include "burnish/sampler/prefilter_table.h"
 #include "burnish/vulkan/device.h"
 #include "burnish/vulkan/transfer.h"
 #include "shared/constants.h"

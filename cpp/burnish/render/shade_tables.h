@@ -8,7 +8,7 @@
 #include "burnish/plan/plan.h"
 #include "burnish/render/diffuse_light.h"
 #include "burnish/render/table_cache.h"
-#include "burnish/sampling/sample_table.h"
+#include "burnish/sampler/sample_table.h"
 #include "burnish/vulkan/buffer.h"
 #include "burnish/vulkan/commands.h"
 #include "shared/records.h"

@@ -2,7 +2,7 @@
 
 #include <span>
 
-#include "burnish/sampling/matched_table.h"
+#include "burnish/sampler/matched_table.h"
 #include "burnish/vulkan/transfer.h"
 #include "shared/constants.h"
 

@@ -6,8 +6,8 @@
 #include <memory>
 #include <vector>
 
-#include "burnish/sampling/albedo_table.h"
-#include "burnish/sampling/matched_view_table.h"
+#include "burnish/lobe/albedo_table.h"
+#include "burnish/sampler/matched_view_table.h"
 #include "burnish/vulkan/element_buffer.h"
 
 namespace burnish::render {

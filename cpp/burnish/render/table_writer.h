@@ -10,7 +10,7 @@
 
 #include "burnish/plan/plan.h"
 #include "burnish/render/table_cache.h"
-#include "burnish/sampling/sample_table.h"
+#include "burnish/sampler/sample_table.h"
 
 namespace burnish::render {
 

@@ -1,9 +1,9 @@
 #include "burnish/render/texel_pairs.h"
 
 #include "burnish/cores.h"
+#include "burnish/light/environment.h"
+#include "burnish/light/half.h"
 #include "burnish/plan/map_lookup.h"
-#include "burnish/scene/environment.h"
-#include "burnish/scene/half.h"
 #include "burnish/vulkan/commands.h"
 #include "burnish/vulkan/transfer.h"
 

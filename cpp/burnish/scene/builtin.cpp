@@ -4,7 +4,7 @@
 
 #include <glm/gtc/constants.hpp>
 
-#include "burnish/scene/check.h"
+#include "burnish/check.h"
 #include "burnish/scene/mesh.h"
 
 namespace burnish {

@@ -2,7 +2,7 @@
 
 #include <glm/gtc/matrix_transform.hpp>
 
-#include "burnish/scene/check.h"
+#include "burnish/check.h"
 #include "burnish/scene/scene.h"
 
 namespace burnish {

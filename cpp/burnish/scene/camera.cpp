@@ -2,7 +2,7 @@
 
 #include <stdexcept>
 
-#include "burnish/scene/check.h"
+#include "burnish/check.h"
 
 namespace burnish {
 

@@ -1,14 +1,9 @@
 #include "burnish/scene/material.h"
 
-#include "burnish/scene/check.h"
+#include "burnish/check.h"
 
 namespace burnish {
 namespace {
-
-void require_unit(const std::string& name, const glm::vec3& value) {
-    for (int channel = 0; channel < 3; ++channel)
-        require_range(name, value[channel], 0.0f, 1.0f);
-}
 
 void validate(const MetallicRoughness& source) {
     require_unit("source.base_color", glm::vec3(source.base_color));
@@ -39,17 +34,6 @@ float coverage_cutoff(const Material& material) {
 bool has_coverage(const Material& material) {
     const float most = material.source ? material.source->base_color.w : 1.0f;
     return material.alpha_mode == AlphaMode::opaque || most >= coverage_cutoff(material);
-}
-
-void validate(const KurtLobe& lobe, const std::string& prefix) {
-    require_range(prefix + "roughness", lobe.roughness.x, MIN_LOBE_ROUGHNESS, 1.0f);
-    require_range(prefix + "roughness", lobe.roughness.y, MIN_LOBE_ROUGHNESS, 1.0f);
-    require_unit(prefix + "r0", lobe.r0);
-    require_range(prefix + "alpha", lobe.alpha, 0.0f, 1.0f);
-    require_non_negative(prefix + "weight", lobe.weight);
-    if (!std::isfinite(lobe.rotation))
-        throw std::invalid_argument(
-            message(prefix, "rotation: expected a finite number, got ", lobe.rotation));
 }
 
 void validate(const Material& material) {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "burnish/scene/check.h"
+#include "burnish/check.h"
 
 namespace burnish {
 namespace {

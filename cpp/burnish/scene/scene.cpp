@@ -4,7 +4,7 @@
 #include <limits>
 #include <stdexcept>
 
-#include "burnish/scene/check.h"
+#include "burnish/check.h"
 #include "burnish/scene/texture_kinds.h"
 
 namespace burnish {

@@ -7,8 +7,8 @@
 
 #include <glm/glm.hpp>
 
+#include "burnish/light/environment.h"
 #include "burnish/scene/camera.h"
-#include "burnish/scene/environment.h"
 #include "burnish/scene/material.h"
 #include "burnish/scene/mesh.h"
 #include "burnish/scene/texture.h"

@@ -18,7 +18,7 @@
 #include <tuple>
 #include <unordered_map>
 
-#include "burnish/scene/check.h"
+#include "burnish/check.h"
 #include "burnish/scene/mesh.h"
 
 namespace burnish {

@@ -1,0 +1,41 @@
+// What the shade kernel reads for every sample of a lobe: all that depends on the pattern alone, made once.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include <glm/glm.hpp>
+
+#include "burnish/sampler/sampler.h"
+
+namespace burnish {
+
+/// One entry a sample: slopes of the half-vector hx/hz, hy/hz; weight; texel factor.
+///
+/// With g = cos_i^(1-alpha) cos_o^-alpha and F Fresnel, the lobe's radiance is sum(weight F g L), for furnace
+/// divided by sum(weight F g) and multiplied by the albedo. The texel factor K times the lobe's view terms is
+/// the count of level-0 texels a lookup covers; the level is half its log2:
+///   exact, importance:  K (o.h)/hz r^3        published:  K sqrt((ox^2+oz^2)(oy^2+oz^2)) r / ((o.h)/hz)
+/// with r = |i|/|i|_inf. (o.h)/hz is what the kernel has at hand, so K holds the power of hz.
+///
+/// A scaled table serves every roughness of a textured material: slopes are in units of roughness, the weight
+/// is q and the kernel applies D's other factors itself.
+struct SampleTable {
+    std::vector<glm::vec4> entries;
+    bool is_scaled = false;
+};
+
+/// The table of a lobe of this roughness; `face_size` is that of the map it looks up.
+SampleTable build_sample_table(const Regular& sampler, glm::vec2 roughness, uint32_t face_size);
+SampleTable build_sample_table(const Importance& sampler, glm::vec2 roughness, uint32_t face_size);
+
+/// Scaled tables. The regular pattern is placed at slope `SCALED_ROUGHNESS`.
+constexpr float SCALED_ROUGHNESS = 0.3f;
+SampleTable build_scaled_table(const Regular& sampler, uint32_t face_size);
+SampleTable build_scaled_table(const Importance& sampler, uint32_t face_size);
+
+/// Points in the unit square, x in [2^-24, 1).
+std::vector<glm::dvec2> unit_points(PointSet points, uint32_t count);
+
+} // namespace burnish
