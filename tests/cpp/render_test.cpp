@@ -182,7 +182,7 @@ TEST(Render, SamplersAgreeInAFurnace) {
                                    Sampler(Reference{.method = ReferenceMethod::progressive})}) {
         settings.sampler = sampler;
         const float got = renderer().shade(environment, material, {up, along, up}, settings)[0].r;
-        EXPECT_NEAR(got, truth, 0.02f * truth) << describe(sampler);
+        EXPECT_NEAR(got, truth, 0.02f * truth) << facts(sampler).text;
     }
 }
 

@@ -68,9 +68,10 @@ std::string why_at_every_point(const ShadeTraits& traits, const std::vector<cons
     return "tables by view of so many brushed lobes would take too much memory";
 }
 
-std::string why_from_buffer(const ShadeTraits& traits, const PlanSettings& settings, size_t constant_count) {
+std::string why_from_buffer(const ShadeTraits& traits, const Plan& plan, size_t constant_count) {
+    const PlanSettings& settings = plan.settings;
     if (traits.lobe_count > 1) return "several lobes";
-    if (!fits_into_constants(settings.sampler)) return "too many samples for constants";
+    if (!plan.sampler.fits_constants) return "too many samples for constants";
     if (settings.sample_source == SampleSource::meanwhile)
         return "the pipeline that has them as constants is being compiled";
     if (settings.sample_source == SampleSource::buffer)
@@ -93,7 +94,7 @@ std::string describe(const ShadeClass& one, const Scene& scene, const Plan& plan
         if (std::find(some.begin(), some.end(), material) == some.end()) some.push_back(material);
     }
     std::string text = listed(visible_materials(scene), some);
-    const bool is_too_long = writes_out_samples(plan.settings) && !unrolls_samples(plan.settings, one.traits);
+    const bool is_too_long = writes_out_samples(plan.settings) && !unrolls_samples(plan, one.traits);
     const char* const loop = is_too_long ? "; in a loop, too many samples to be written out" : "";
     switch (one.traits.table) {
     case TableForm::none:
@@ -103,8 +104,8 @@ std::string describe(const ShadeClass& one, const Scene& scene, const Plan& plan
                         "), its samples are constants");
         break;
     case TableForm::buffer:
-        text += message("; ", why_from_buffer(one.traits, plan.settings, constant_count),
-                        ", samples from a buffer", loop);
+        text +=
+            message("; ", why_from_buffer(one.traits, plan, constant_count), ", samples from a buffer", loop);
         break;
     case TableForm::scaled:
         text += message("; roughness varies over the surface, samples scale with it", loop);
@@ -123,8 +124,8 @@ std::string describe(const ShadeClass& one, const Scene& scene, const Plan& plan
     return text;
 }
 
-const char* describe_diffuse(const Sampler& sampler) {
-    const std::optional<DiffuseForm> form = diffuse_form(sampler);
+const char* describe_diffuse(const SamplerFacts& sampler) {
+    const std::optional<DiffuseForm> form = sampler.diffuse;
     if (!form) return "the sum over every texel, or sampled";
     return *form == DiffuseForm::cube ? "one lookup in a cube of exact sums" : "nine spherical harmonics";
 }
@@ -160,7 +161,7 @@ void add_effect_lines(const Scene& scene, Plan& plan) {
     add_lobe_effect("clear coat normal", "no clear coat lies over a normal map or has one", has_coat_normal);
     add("diffuse", "every diffuse reflectance is 0", has_diffuse);
     if (plan.effects.back().is_on)
-        plan.effects.back().reason += message("; ", describe_diffuse(plan.settings.sampler));
+        plan.effects.back().reason += message("; ", describe_diffuse(plan.sampler));
     add("emissive", "no material emits", has_emissive);
     for (const TextureKind& kind : TEXTURE_KINDS)
         add(kind.name, "no material has one",
@@ -184,9 +185,8 @@ void add_effect_lines(const Scene& scene, Plan& plan) {
     plan.effects.push_back({"sun split", sun_count > 0,
                             sun_count > 0 ? message(sun_count, sun_count == 1 ? " sun is" : " suns are",
                                                     " taken out of the map and shaded directly")
-                            : std::holds_alternative<Matched>(plan.settings.sampler)
-                                ? "no map has a sun"
-                                : "only the matched sampler splits suns off"});
+                            : plan.sampler.takes_suns_out ? "no map has a sun"
+                                                          : "only the matched sampler splits suns off"});
     const bool has_rotation = std::any_of(plan.environments.begin(), plan.environments.end(),
                                           [](const auto& one) { return one->rotation != glm::mat3(1.0f); });
     plan.effects.push_back({"map rotation", has_rotation,
@@ -227,18 +227,12 @@ void add_pass_lines(Plan& plan) {
     const auto add = [&](const char* name, std::string reason) {
         plan.passes.push_back({name, std::move(reason)});
     };
-    const bool has_lookups = std::any_of(plan.classes.begin(), plan.classes.end(),
-                                         [](const ShadeClass& one) { return one.traits.lobe_count > 0; });
-    const bool is_reference = std::holds_alternative<Reference>(plan.settings.sampler);
-    if (has_lookups && !is_reference)
+    const bool is_reference = plan.sampler.is_truth;
+    if (plan.has_lookups && plan.sampler.levels != MapLevels::none)
         add("pyramid",
             message(pyramid_filter_name(plan.settings.filter), " levels of ", plan.environments.size(),
                     plan.environments.size() == 1 ? " map" : " maps", ", once per map"));
-    if (has_lookups && std::holds_alternative<Prefiltered>(plan.settings.sampler))
-        add("prefilter", "each level the map as one roughness sees it, for one lookup a lobe, once per map");
-    if (has_lookups && std::holds_alternative<Matched>(plan.settings.sampler))
-        add("prefilter",
-            "levels that are round on the sphere, so that a lookup has one width everywhere, once per map");
+    if (plan.has_lookups && !plan.sampler.levels_reason.empty()) add("prefilter", plan.sampler.levels_reason);
     if (!plan.diffuse_environments.empty() && !is_reference)
         add("irradiance", message("cosine sums over every texel of ", plan.diffuse_environments.size(),
                                   plan.diffuse_environments.size() == 1 ? " map" : " maps",

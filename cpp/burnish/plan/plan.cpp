@@ -33,7 +33,7 @@ uint32_t add_environment(Plan& plan, const std::shared_ptr<const Environment>& r
 
 /// The map that lobes look up, with its suns taken out where the sampler shades them directly.
 uint32_t add_lit_environment(Plan& plan, const std::shared_ptr<const Environment>& whole, SunCache& suns) {
-    if (!plan.settings.has_lobes || !std::holds_alternative<Matched>(plan.settings.sampler))
+    if (!plan.settings.has_lobes || !plan.sampler.takes_suns_out)
         return add_environment(plan, whole, whole, {});
     const SplitEnvironment split = suns.split(whole);
     return add_environment(plan, split.rest, whole, split.suns);
@@ -87,13 +87,12 @@ constexpr uint64_t MOST_VIEW_ENTRIES = 16'000'000;
 
 /// Whether the tables by view of all brushed lobes in the scene fit.
 bool fit_view_tables(const Scene& scene, const Plan& plan) {
-    const auto* matched = std::get_if<Matched>(&plan.settings.sampler);
-    if (!matched) return false;
+    if (plan.sampler.placing != Placing::mixtures) return false;
     uint64_t entries = 0;
     for (const MaterialInstance& instance : plan.instances)
         for (const KurtLobe& lobe : scene.materials[instance.material].lobes)
             if (lobe.is_anisotropic())
-                entries += view_table_entries({.samples = matched->samples,
+                entries += view_table_entries({.samples = plan.sampler.samples,
                                                .roughness_x = lobe.roughness.x,
                                                .roughness_y = lobe.roughness.y,
                                                .has_schlick = lobe.has_fresnel()});
@@ -144,19 +143,27 @@ ShadeTraits traits_of(const Scene& scene, const Plan& plan, const MaterialInstan
         traits.alpha = is_first || traits.alpha == form ? form : AlphaForm::general;
     }
     traits.has_tangent = is_brushed(material);
-    if (traits.lobe_count == 0 || std::holds_alternative<Reference>(plan.settings.sampler)) return traits;
-    if (std::holds_alternative<Matched>(plan.settings.sampler)) {
+    if (traits.lobe_count == 0) return traits;
+    switch (plan.sampler.placing) {
+    case Placing::none:
+        break;
+    case Placing::mixtures:
         traits.table = matched_form(material, fit_tables, traits);
-    } else if (std::holds_alternative<Prefiltered>(plan.settings.sampler)) {
+        break;
+    case Placing::mirror:
         traits.table = TableForm::prefiltered;
-    } else if (traits.has_varying) {
-        traits.table = TableForm::scaled;
-    } else if (plan.settings.sample_source == SampleSource::constants && traits.lobe_count == 1 &&
-               fits_into_constants(plan.settings.sampler)) {
-        traits.table = TableForm::constant;
-        traits.roughness = material.lobes[0].roughness;
-    } else {
-        traits.table = TableForm::buffer;
+        break;
+    case Placing::pattern:
+        if (traits.has_varying) {
+            traits.table = TableForm::scaled;
+        } else if (plan.settings.sample_source == SampleSource::constants && traits.lobe_count == 1 &&
+                   plan.sampler.fits_constants) {
+            traits.table = TableForm::constant;
+            traits.roughness = material.lobes[0].roughness;
+        } else {
+            traits.table = TableForm::buffer;
+        }
+        break;
     }
     return traits;
 }
@@ -218,6 +225,7 @@ void add_classes(const Scene& scene, Plan& plan) {
             plan.diffuse_environments.push_back(instance.environment);
     for (ShadeClass& one : plan.classes) {
         one.reason = describe(one, scene, plan, size_t(constant_count));
+        plan.has_lookups |= one.traits.lobe_count > 0;
         plan.has_varying |= one.traits.has_varying;
         plan.has_coat |= one.traits.has_coat;
         plan.has_tangent |= one.traits.has_tangent;
@@ -240,25 +248,14 @@ void warn_of_nothing_drawn(const Scene& scene, Plan& plan) {
 
 } // namespace
 
-bool fits_into_constants(const Sampler& sampler) {
-    const auto fits = [](uint32_t samples) { return samples + samples / 4 <= shared::MAX_CONSTANT_SAMPLES; };
-    if (const auto* regular = std::get_if<Regular>(&sampler))
-        return fits(regular->samples); // the pattern may exceed its budget
-    if (const auto* importance = std::get_if<Importance>(&sampler))
-        return importance->samples <= shared::MAX_CONSTANT_SAMPLES;
-    return false;
-}
-
 bool writes_out_samples(const PlanSettings& settings) {
     return settings.sample_source != SampleSource::one_by_one && settings.sample_source != SampleSource::loop;
 }
 
-bool unrolls_samples(const PlanSettings& settings, const ShadeTraits& traits) {
-    if (!writes_out_samples(settings)) return false;
+bool unrolls_samples(const Plan& plan, const ShadeTraits& traits) {
+    if (!writes_out_samples(plan.settings)) return false;
     if (traits.table != TableForm::buffer && traits.table != TableForm::scaled) return false;
-    const auto* regular = std::get_if<Regular>(&settings.sampler);
-    const uint32_t samples = regular ? regular->samples : std::get<Importance>(settings.sampler).samples;
-    return uint64_t(samples) * traits.lobe_count <= shared::MAX_UNROLLED_SAMPLES;
+    return uint64_t(plan.sampler.samples) * traits.lobe_count <= shared::MAX_UNROLLED_SAMPLES;
 }
 
 SplitEnvironment SunCache::split(const std::shared_ptr<const Environment>& environment) {
@@ -287,6 +284,7 @@ Plan make_plan(const Scene& scene, const PlanSettings& settings, SunCache& suns)
         throw std::invalid_argument(message("spp: expected 1..65536, got ", settings.spp));
     Plan plan;
     plan.settings = settings;
+    plan.sampler = facts(settings.sampler);
     plan.has_background = scene.show_background && scene.environment;
     add_instances(scene, plan, suns);
     add_map_sets(plan);
@@ -294,7 +292,7 @@ Plan make_plan(const Scene& scene, const PlanSettings& settings, SunCache& suns)
     warn_of_nothing_drawn(scene, plan);
     if (!scene.environment) plan.warnings.push_back("the scene has no environment: only emission is seen");
     warn_of_missing_tangents(scene, plan);
-    if (plan.has_tangent && std::holds_alternative<Prefiltered>(settings.sampler))
+    if (plan.has_tangent && plan.sampler.is_round)
         plan.warnings.push_back(
             "prefiltered maps are round: brushed lobes reflect as the round ones of slope sqrt(mx my)");
     add_effect_lines(scene, plan);

@@ -120,6 +120,7 @@ private:
 
 struct Plan {
     PlanSettings settings;
+    SamplerFacts sampler;                                         ///< of settings.sampler
     std::vector<std::shared_ptr<const Environment>> environments; ///< the background first
     std::vector<std::vector<Sun>> suns;                           ///< taken out of each, by environment
     /// What lights diffuse surfaces, by environment: the maps with their suns.
@@ -130,6 +131,7 @@ struct Plan {
     std::vector<MaterialInstance> instances;
     std::vector<uint32_t> object_instance; ///< for each object of the scene
     std::vector<ShadeClass> classes;
+    bool has_lookups = false; ///< some object has a lobe
     bool has_background = false;
     bool has_varying = false; ///< some material needs the wide G-buffer
     bool has_coat = false;
@@ -143,14 +145,11 @@ struct Plan {
 /// More constant tables than this are read from a buffer instead: each is a pipeline to compile.
 constexpr size_t MAX_CONSTANT_CLASSES = 6;
 
-/// Whether the samples of one lobe can be constants of a pipeline.
-bool fits_into_constants(const Sampler& sampler);
-
 /// Whether the lookups of tables in a buffer may be written out: a driver has to compile them.
 bool writes_out_samples(const PlanSettings& settings);
 
 /// Whether tables that are read from a buffer are read without a loop: where all lookups of a point are few.
-bool unrolls_samples(const PlanSettings& settings, const ShadeTraits& traits);
+bool unrolls_samples(const Plan& plan, const ShadeTraits& traits);
 
 /// Chooses passes and shader variants. Throws std::invalid_argument for settings out of range.
 Plan make_plan(const Scene& scene, const PlanSettings& settings, SunCache& suns);

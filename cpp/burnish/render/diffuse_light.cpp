@@ -17,7 +17,7 @@ constexpr VkFormat FORMAT = VK_FORMAT_R32G32B32A32_SFLOAT;
 
 std::vector<DiffuseLight> DiffuseLights::of_plan(const Plan& plan, std::vector<vulkan::PassTime>& times) {
     std::vector<DiffuseLight> lights(plan.environments.size());
-    const std::optional<DiffuseForm> form = diffuse_form(plan.settings.sampler);
+    const std::optional<DiffuseForm> form = plan.sampler.diffuse;
     if (!form) return lights;
     std::optional<double> made_ms;
     for (const uint32_t k : plan.diffuse_environments)

@@ -23,10 +23,6 @@ constexpr uint32_t MAX_ROUNDS = 60'000;
 constexpr double DISPATCH_TEXELS = 1e8; // points times texels in one dispatch: a GPU may not be held for long
 constexpr float LEAST_TEXELS_ACROSS = 8; // roughness in texels below which a sum over texels misses the lobe
 
-const Reference& reference_of(const Plan& plan) {
-    return std::get<Reference>(plan.settings.sampler);
-}
-
 /// Points of a quadrature: the texels of the largest map, or parts of them.
 uint64_t texels_of(const Plan& plan) {
     uint64_t most = 0;
@@ -97,7 +93,7 @@ Renderer::prepare_alias(const std::vector<std::shared_ptr<const Environment>>& e
 
 ReferenceBuffers Renderer::make_reference_buffers(const Scene& scene, const Plan& plan, uint64_t points) {
     ReferenceBuffers buffers;
-    const Reference& settings = reference_of(plan);
+    const Reference& settings = reference_of(plan.settings.sampler);
     buffers.is_quadrature =
         settings.method == ReferenceMethod::quadrature ||
         (settings.method == ReferenceMethod::automatic && prefers_quadrature(scene, plan, points));
@@ -109,7 +105,7 @@ ReferenceBuffers Renderer::make_reference_buffers(const Scene& scene, const Plan
 
 void Renderer::run_reference(const Plan& plan, const ShadePass& pass, const ReferenceBuffers& buffers,
                              uint64_t points, const Progress& progress, Report& report) {
-    const Reference& settings = reference_of(plan);
+    const Reference& settings = reference_of(plan.settings.sampler);
     const auto run = [&](const shared::ShadeRecord& push) {
         vulkan::Commands commands(device_);
         if (push.batch == 0) {

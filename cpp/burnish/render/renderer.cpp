@@ -97,7 +97,7 @@ Frame Renderer::render(const Scene& scene, const Camera& camera, const RenderSet
 
 Frame Renderer::draw(const Scene& scene, const Camera& camera, const RenderSettings& settings) {
     const Stopwatch wall;
-    const bool is_reference = std::holds_alternative<Reference>(settings.plan.sampler);
+    const bool is_reference = facts(settings.plan.sampler).is_truth;
     std::optional<Frame> frame = draw_once(scene, camera, settings, is_reference);
     if (!frame) {
         frame = draw_once(scene, camera, settings, true);
@@ -137,7 +137,7 @@ std::optional<Frame> Renderer::draw_once(const Scene& scene, const Camera& camer
     frame.report.triangles = gpu_scene.triangle_count();
 
     const uint64_t pixels = uint64_t(settings.width) * settings.height;
-    const bool is_reference = std::holds_alternative<Reference>(plan.settings.sampler);
+    const bool is_reference = plan.sampler.is_truth;
     std::optional<ReferenceBuffers> reference;
     if (is_reference) reference = make_reference_buffers(scene, plan, pixels);
     const uint32_t spp = plan.settings.spp;

@@ -16,6 +16,19 @@ std::string describe_maps(size_t count, const Environment& first) {
     return message(count, count == 1 ? " map" : " maps", " with faces of ", size, " x ", size, " texels");
 }
 
+std::optional<PrefilterKernel> kernel_of(MapLevels levels) {
+    switch (levels) {
+    case MapLevels::spherical:
+        return PrefilterKernel::spherical;
+    case MapLevels::lobe:
+        return PrefilterKernel::lobe;
+    case MapLevels::none:
+    case MapLevels::pyramid:
+        return std::nullopt;
+    }
+    return std::nullopt;
+}
+
 } // namespace
 
 std::vector<std::shared_ptr<EnvironmentMaps>> Renderer::prepare_maps(const Plan& plan,
@@ -27,15 +40,9 @@ std::vector<std::shared_ptr<EnvironmentMaps>> Renderer::prepare_maps(const Plan&
             map_tools_.keep_room(std::move(*cached.maps).release_room());
         return is_expired;
     });
-    const auto has_pass = [&](const char* name) {
-        return std::any_of(plan.passes.begin(), plan.passes.end(),
-                           [&](const PassLine& line) { return line.name == name; });
-    };
     MapSettings wanted;
-    if (has_pass("pyramid")) wanted.filter = plan.settings.filter;
-    if (has_pass("prefilter"))
-        wanted.kernel = std::holds_alternative<Matched>(plan.settings.sampler) ? PrefilterKernel::spherical
-                                                                               : PrefilterKernel::lobe;
+    if (plan.has_lookups && plan.sampler.levels != MapLevels::none) wanted.filter = plan.settings.filter;
+    if (plan.has_lookups) wanted.kernel = kernel_of(plan.sampler.levels);
     std::vector<std::shared_ptr<EnvironmentMaps>> result;
     for (const MapSet& set : plan.map_sets) {
         std::vector<std::shared_ptr<const Environment>> environments;

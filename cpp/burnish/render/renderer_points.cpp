@@ -62,8 +62,7 @@ std::vector<glm::vec3> Renderer::shade_points(const std::shared_ptr<const Enviro
     const vulkan::Buffer radiance(device_, (count + 1) * sizeof(glm::vec4), storage);
     const vulkan::Buffer counters(device_, sizeof(shared::Counters), storage);
     std::optional<ReferenceBuffers> reference;
-    if (std::holds_alternative<Reference>(plan.settings.sampler))
-        reference = make_reference_buffers(scene, plan, count);
+    if (plan.sampler.is_truth) reference = make_reference_buffers(scene, plan, count);
     Report local = start_report(scene, plan, tables);
     ShadeInputs inputs{nullptr, &point_buffer, uint32_t(count), &radiance, &counters};
     inputs.counts_non_finite = reference.has_value();

@@ -28,11 +28,11 @@ Report Renderer::start_report(const Scene& scene, const Plan& plan, const ShadeT
     report.is_software = device_->info().is_software;
     report.spp = plan.settings.spp;
     report.filter = pyramid_filter_name(plan.settings.filter);
-    report.sampler = describe(plan.settings.sampler);
+    report.sampler = plan.sampler.text;
     report.effects = plan.effects;
     report.diffuse_error = tables.diffuse_error;
     for (EffectLine& line : report.effects)
-        if (line.name == "diffuse" && line.is_on && diffuse_form(plan.settings.sampler))
+        if (line.name == "diffuse" && line.is_on && plan.sampler.diffuse)
             line.reason += ", " + percent(tables.diffuse_error) + " off";
     report.warnings = plan.warnings;
     for (size_t k = 0; k < plan.classes.size(); ++k) {

@@ -16,12 +16,6 @@
 namespace burnish::render {
 namespace {
 
-bool needs_albedo(const Sampler& sampler) {
-    const auto* regular = std::get_if<Regular>(&sampler);
-    return (regular && regular->normalization == Normalization::furnace) ||
-           std::holds_alternative<Matched>(sampler) || std::holds_alternative<Prefiltered>(sampler);
-}
-
 shared::LobeRecord lobe_record(const KurtLobe& lobe) {
     shared::LobeRecord record{};
     record.specular = glm::vec4(lobe.weight * lobe.r0, lobe.roughness.x);
@@ -51,7 +45,7 @@ std::vector<uint32_t> unrolled_counts(const Scene& scene, const Plan& plan, Tabl
     std::vector<uint32_t> counts(plan.classes.size(), 0);
     for (const MaterialInstance& instance : plan.instances) {
         const ShadeTraits& traits = plan.classes[instance.shade_class].traits;
-        if (!unrolls_samples(plan.settings, traits)) continue;
+        if (!unrolls_samples(plan, traits)) continue;
         for (uint32_t which = 0; which < traits.lobe_count; ++which) {
             const KurtLobe lobe = lobe_of(scene.materials[instance.material], which, traits);
             const SampleTable& table = writer.table(traits.table, lobe.roughness,
@@ -143,19 +137,19 @@ ShadeTables make_shade_tables(const vulkan::DevicePointer& device, const Scene& 
         for (uint32_t which = 0; which < traits.lobe_count; ++which) {
             const KurtLobe lobe = lobe_of(material, which, traits);
             shared::LobeRecord record = lobe_record(lobe);
-            if (const auto* matched = std::get_if<Matched>(&plan.settings.sampler)) {
+            if (plan.sampler.placing == Placing::mixtures) {
                 if (traits.table == TableForm::matched_by_view) {
                     const auto views =
-                        writer.view_table(matched->samples, lobe, traits.has_fresnel, face_size);
+                        writer.view_table(plan.sampler.samples, lobe, traits.has_fresnel, face_size);
                     record.table_begin = views.begin;
                     record.view_columns = views.columns;
                     record.view_drift = views.drift;
                 } else {
-                    record.table_begin = writer.mixtures(matched->samples);
+                    record.table_begin = writer.mixtures(plan.sampler.samples);
                 }
-                record.table_count = matched->samples;
+                record.table_count = plan.sampler.samples;
                 record.level_share = spherical_share(1.0, face_size);
-                counts[instance.shade_class].insert(matched->samples);
+                counts[instance.shade_class].insert(plan.sampler.samples);
             } else if (traits.table == TableForm::prefiltered) {
                 counts[instance.shade_class].insert(1);
             } else if (traits.table != TableForm::none) {
@@ -165,15 +159,14 @@ ShadeTables make_shade_tables(const vulkan::DevicePointer& device, const Scene& 
                 record.table_count = samples.count;
                 counts[instance.shade_class].insert(samples.count);
             }
-            if (needs_albedo(plan.settings.sampler) || traits.conserves_energy) {
+            if (plan.sampler.needs_albedo || traits.conserves_energy) {
                 const bool is_varying_brushed = is_brushed(material) && !is_coat(which, traits);
                 const auto albedo = traits.has_varying ? writer.varying_albedo(is_varying_brushed, lobe.alpha)
                                                        : writer.albedo(lobe.roughness, lobe.alpha);
                 record.albedo_begin = albedo.begin;
                 record.albedo_width_nodes = albedo.count;
             }
-            if (const auto* regular = std::get_if<Regular>(&plan.settings.sampler))
-                record.threshold_log = -std::log(regular->threshold);
+            record.threshold_log = plan.sampler.threshold_log;
             lobes.push_back(record);
         }
     }
@@ -202,8 +195,8 @@ ShadeTables make_shade_tables(const vulkan::DevicePointer& device, const Scene& 
         const ShadeTraits& traits = plan.classes[k].traits;
         SampleTable table;
         if (traits.table == TableForm::constant)
-            table = build_table(plan.settings.sampler, traits.table, traits.roughness,
-                                plan.map_sets[traits.map_set].face_size);
+            table = build_sample_table(plan.settings.sampler, traits.roughness,
+                                       plan.map_sets[traits.map_set].face_size);
         tables.class_tables.push_back(std::move(table));
         std::string used;
         for (const uint32_t count : counts[k])
@@ -219,7 +212,7 @@ ShadeTables make_shade_tables(const vulkan::DevicePointer& device, const Scene& 
     tables.samples = cache.sample_buffer(device, std::move(writer.sample_tables));
     std::vector<std::shared_ptr<const IrradianceCube>> cubes;
     // Pipelines that many kinds of material share look it up where nothing is diffuse, too.
-    if (diffuse_form(plan.settings.sampler) == DiffuseForm::cube &&
+    if (plan.sampler.diffuse == DiffuseForm::cube &&
         std::ranges::any_of(plan.classes, [](const ShadeClass& one) { return one.traits.has_diffuse; }))
         for (const DiffuseLight& light : lights)
             cubes.push_back(light.cube);

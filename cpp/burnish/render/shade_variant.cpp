@@ -31,13 +31,12 @@ uint32_t code_of(MapLookup lookup) {
     return shared::LOOKUP_SAMPLER;
 }
 
-uint32_t table_of(TableForm form, const Sampler& sampler) {
+uint32_t table_of(TableForm form, const SamplerFacts& sampler) {
     switch (form) {
     case TableForm::constant:
         return shared::TABLE_CONSTANT;
     case TableForm::scaled:
-        return std::holds_alternative<Regular>(sampler) ? shared::TABLE_SCALED_REGULAR
-                                                        : shared::TABLE_SCALED_IMPORTANCE;
+        return sampler.scaled_table;
     case TableForm::matched:
         return shared::TABLE_MATCHED;
     case TableForm::matched_by_view:
@@ -49,16 +48,6 @@ uint32_t table_of(TableForm form, const Sampler& sampler) {
         return shared::TABLE_BUFFER;
     }
     return shared::TABLE_BUFFER;
-}
-
-uint32_t normalization_of(const Sampler& sampler, TableForm form) {
-    if (std::holds_alternative<Matched>(sampler)) return shared::NORMALIZATION_FURNACE;
-    const auto* regular = std::get_if<Regular>(&sampler);
-    if (!regular) return shared::NORMALIZATION_CONSTANT;
-    if (regular->normalization == Normalization::furnace) return shared::NORMALIZATION_FURNACE;
-    if (form != TableForm::scaled) return shared::NORMALIZATION_CONSTANT;
-    return regular->normalization == Normalization::published ? shared::NORMALIZATION_PUBLISHED
-                                                              : shared::NORMALIZATION_PROJECTED;
 }
 
 const char* shader_of(TableForm form) {
@@ -102,23 +91,22 @@ vulkan::SpecializationConstants common_constants(const Plan& plan, uint32_t shad
 
 /// `table`: of constant form; `buffer_count`: samples of each lobe in buffer or scaled form, 0 for a loop.
 void add_pattern_constants(vulkan::SpecializationConstants& constants, const ShadeTraits& traits,
-                           const PlanSettings& settings, const SampleTable& table, uint32_t buffer_count) {
-    const Sampler& sampler = settings.sampler;
-    const auto* regular = std::get_if<Regular>(&sampler);
-    const bool is_published = regular && regular->footprint == Footprint::published;
+                           const Plan& plan, const SampleTable& table, uint32_t buffer_count) {
+    const SamplerFacts& sampler = plan.sampler;
+    const bool is_scaled = traits.table == TableForm::scaled;
     constants.set(shared::SPEC_HAS_FRESNEL, traits.has_fresnel)
         .set(shared::SPEC_ALPHA, form_of(traits.alpha))
         .set(shared::SPEC_TABLE, table_of(traits.table, sampler))
-        .set(shared::SPEC_FOOTPRINT, is_published ? shared::FOOTPRINT_PUBLISHED : shared::FOOTPRINT_EXACT)
+        .set(shared::SPEC_FOOTPRINT, sampler.footprint)
         .set(shared::SPEC_SUN_COUNT, traits.sun_count)
-        .set(shared::SPEC_WITHOUT_LOOKUPS, !settings.has_lookups)
-        .set(shared::SPEC_NORMALIZATION, normalization_of(sampler, traits.table));
-    if (const auto* matched = std::get_if<Matched>(&sampler))
-        constants.set(shared::SPEC_SAMPLE_COUNT, matched->samples)
+        .set(shared::SPEC_WITHOUT_LOOKUPS, !plan.settings.has_lookups)
+        .set(shared::SPEC_NORMALIZATION, is_scaled ? sampler.scaled_normalization : sampler.normalization);
+    if (sampler.placing == Placing::mixtures)
+        constants.set(shared::SPEC_SAMPLE_COUNT, sampler.samples)
             .set(shared::SPEC_WIDE_COMPONENTS, traits.has_wide_components);
     if (traits.table == TableForm::buffer || traits.table == TableForm::scaled) {
         constants.set(shared::SPEC_SAMPLE_COUNT, buffer_count);
-        if (settings.sample_source == SampleSource::one_by_one) constants.set(shared::SPEC_PHASE, 1u);
+        if (plan.settings.sample_source == SampleSource::one_by_one) constants.set(shared::SPEC_PHASE, 1u);
     }
     if (traits.table != TableForm::constant) return;
     constants.set(shared::SPEC_SAMPLE_COUNT, uint32_t(table.entries.size()));
@@ -132,12 +120,12 @@ void add_pattern_constants(vulkan::SpecializationConstants& constants, const Sha
 ComputeKey shade_key(const Plan& plan, const ShadeTables& tables, uint32_t shade_class, ShadeTarget target) {
     const ShadeTraits& traits = plan.classes[shade_class].traits;
     vulkan::SpecializationConstants constants = common_constants(plan, shade_class, target);
-    add_pattern_constants(constants, traits, plan.settings, tables.class_tables[shade_class],
+    add_pattern_constants(constants, traits, plan, tables.class_tables[shade_class],
                           tables.class_counts[shade_class]);
     constants
         .set(shared::SPEC_SAMPLE_TABLE_IS_STORED,
              tables.samples->elements.access() == vulkan::ElementAccess::storage)
-        .set(shared::SPEC_HAS_HARMONICS, diffuse_form(plan.settings.sampler) == DiffuseForm::harmonics)
+        .set(shared::SPEC_HAS_HARMONICS, plan.sampler.diffuse == DiffuseForm::harmonics)
         .set(shared::SPEC_IRRADIANCE_IS_STORED,
              tables.irradiance->elements.access() == vulkan::ElementAccess::storage);
     return {shader_of(traits.table), constants};

@@ -14,17 +14,6 @@
 
 namespace burnish::render {
 
-inline SampleTable build_table(const Sampler& sampler, TableForm form, glm::vec2 roughness,
-                               uint32_t face_size) {
-    const auto build = [&](const auto& kind) {
-        return form == TableForm::scaled ? build_scaled_table(kind, face_size)
-                                         : build_sample_table(kind, roughness, face_size);
-    };
-    if (const auto* regular = std::get_if<Regular>(&sampler)) return build(*regular);
-    if (const auto* importance = std::get_if<Importance>(&sampler)) return build(*importance);
-    return {};
-}
-
 /// Kernels read samples in phases of four.
 inline uint32_t whole_phases(uint32_t samples) {
     return (samples + 3) / 4 * 4;
@@ -47,8 +36,11 @@ public:
         const std::array<float, 4> key = {float(form), roughness.x, roughness.y, float(face_size)};
         auto found = tables_.find(key);
         if (found == tables_.end())
-            found =
-                tables_.emplace(key, build_table(plan_.settings.sampler, form, roughness, face_size)).first;
+            found = tables_
+                        .emplace(key, form == TableForm::scaled
+                                          ? build_scaled_table(plan_.settings.sampler, face_size)
+                                          : build_sample_table(plan_.settings.sampler, roughness, face_size))
+                        .first;
         return found->second;
     }
 

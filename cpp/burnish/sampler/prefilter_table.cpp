@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "burnish/sampler/importance.h"
 #include "burnish/sampler/matched_table.h"
 #include "shared/prefilter.h"
 

@@ -2,12 +2,9 @@
 #pragma once
 
 #include <cstdint>
-#include <string>
 #include <vector>
 
 #include <glm/glm.hpp>
-
-#include "burnish/sampler/sampler.h"
 
 namespace burnish {
 
@@ -23,19 +20,14 @@ namespace burnish {
 /// is q and the kernel applies D's other factors itself.
 struct SampleTable {
     std::vector<glm::vec4> entries;
-    bool is_scaled = false;
 };
 
-/// The table of a lobe of this roughness; `face_size` is that of the map it looks up.
-SampleTable build_sample_table(const Regular& sampler, glm::vec2 roughness, uint32_t face_size);
-SampleTable build_sample_table(const Importance& sampler, glm::vec2 roughness, uint32_t face_size);
-
-/// Scaled tables. The regular pattern is placed at slope `SCALED_ROUGHNESS`.
-constexpr float SCALED_ROUGHNESS = 0.3f;
-SampleTable build_scaled_table(const Regular& sampler, uint32_t face_size);
-SampleTable build_scaled_table(const Importance& sampler, uint32_t face_size);
+enum class PointSet { hammersley, fibonacci };
 
 /// Points in the unit square, x in [2^-24, 1).
 std::vector<glm::dvec2> unit_points(PointSet points, uint32_t count);
+
+/// Texels of a face, times four for every level of bias: half the log2 of what a lookup covers is its level.
+double texels_of_face(uint32_t face_size, float mip_bias);
 
 } // namespace burnish
