@@ -9,7 +9,8 @@ import pytest
 
 REPOSITORY = Path(__file__).resolve().parents[3]
 
-# bindings -> render -> plan -> {sampler, scene} -> {lobe, light} -> error; render -> vulkan -> error; all -> glsl/shared.
+# bindings -> render -> plan -> {sampler, scene} -> {lobe, light} -> error; render -> vulkan -> error;
+# all -> glsl/shared.
 ALLOWED_CPP = {
     "error": set(),
     "light": {"error", "shared"},
