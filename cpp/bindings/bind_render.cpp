@@ -6,6 +6,7 @@
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
+#include "burnish/plan/effects.h"
 #include "burnish/render/capture.h"
 #include "burnish/render/renderer.h"
 #include "interpreter.h"
@@ -47,6 +48,13 @@ py::list effects_list(const std::vector<EffectLine>& effects) {
     return result;
 }
 
+py::dict values_dict(const Variant& variant) {
+    py::dict result;
+    for (const EffectValue& one : effect_values(variant))
+        result[one.name] = one.value;
+    return result;
+}
+
 py::list stopped_list(const render::Report& report) {
     py::list result;
     for (const render::StoppedValues& one : report.stopped) {
@@ -64,7 +72,8 @@ py::dict report_dict(const render::Report& report) {
         passes.append(py::dict(py::arg("name") = pass.name, py::arg("milliseconds") = pass.milliseconds));
     std::string used;
     for (const render::ClassReport& one : report.classes) {
-        classes.append(py::dict(py::arg("effects") = one.effects, py::arg("table") = one.table,
+        classes.append(py::dict(py::arg("effects") = effect_names(one.variant),
+                                py::arg("values") = values_dict(one.variant), py::arg("table") = one.table,
                                 py::arg("samples") = one.samples, py::arg("reason") = one.reason));
         if (!one.samples.empty() && used.find(one.samples) == std::string::npos)
             used += (used.empty() ? "" : ", ") + one.samples;
@@ -112,9 +121,9 @@ py::dict plan_dict(const Scene& scene, const Sampler& sampler, int64_t spp, cons
     for (const PassLine& line : plan.passes)
         passes.append(py::dict(py::arg("name") = line.name, py::arg("reason") = line.reason));
     for (const ShadeClass& one : plan.classes) {
-        classes.append(py::dict(py::arg("effects") = render::effect_names(one.traits),
-                                py::arg("table") = render::table_name(one.traits.table),
-                                py::arg("reason") = one.reason));
+        classes.append(py::dict(
+            py::arg("effects") = effect_names(one.variant), py::arg("values") = values_dict(one.variant),
+            py::arg("table") = render::table_name(one.table), py::arg("reason") = one.reason));
     }
     py::dict result;
     result["passes"] = passes;
@@ -167,20 +176,14 @@ void raise_if_stopped(const render::Report& report) {
     throw py::error_already_set();
 }
 
-/// Points give no report back: what went wrong becomes a Python warning.
-void warn(const render::Report& report) {
-    for (const std::string& text : report.problems)
-        if (PyErr_WarnEx(PyExc_RuntimeWarning, text.c_str(), 1) != 0) throw py::error_already_set();
-}
-
 std::span<const glm::vec3> directions(const py::array_t<float, py::array::c_style>& array) {
     return {reinterpret_cast<const glm::vec3*>(array.data()), size_t(array.shape(0))};
 }
 
-py::array_t<float> shade_points(render::Renderer& renderer, const std::shared_ptr<Environment>& environment,
-                                const Material& material, const Sampler& sampler, const py::array& normals,
-                                const py::array& tangents, const py::array& views, const std::string& filter,
-                                bool is_strict) {
+py::tuple shade_points(render::Renderer& renderer, const std::shared_ptr<Environment>& environment,
+                       const Material& material, const Sampler& sampler, const py::array& normals,
+                       const py::array& tangents, const py::array& views, const std::string& filter,
+                       bool is_strict) {
     const auto normal_array = require_array<float>(normals, "normals", {any, 3});
     const auto tangent_array = require_array<float>(tangents, "tangents", {any, 3});
     const auto view_array = require_array<float>(views, "views", {any, 3});
@@ -194,10 +197,11 @@ py::array_t<float> shade_points(render::Renderer& renderer, const std::shared_pt
         radiance = renderer.shade(environment, material, points, settings, &report, interruptible({}));
     }
     if (is_strict) raise_if_stopped(report);
-    warn(report);
     std::vector<float> values(radiance.size() * 3);
     std::memcpy(values.data(), radiance.data(), values.size() * sizeof(float));
-    return make_array(std::move(values), {py::ssize_t(radiance.size()), 3});
+    py::dict data = report_dict(report);
+    data["problems"] = report.problems;
+    return py::make_tuple(make_array(std::move(values), {py::ssize_t(radiance.size()), 3}), data);
 }
 
 std::shared_ptr<render::Frame> render_scene(render::Renderer& renderer, const Scene& scene,
@@ -249,7 +253,8 @@ void bind_render(py::module_& m) {
           "Render one frame; burnish.render documents the arguments.");
     m.def("shade", &shade_points, py::arg("device"), py::arg("environment"), py::arg("material"),
           py::arg("sampler"), py::arg("normals"), py::arg("tangents"), py::arg("views"), py::arg("filter"),
-          py::arg("is_strict") = false, "Shade points; burnish.shade documents the arguments.");
+          py::arg("is_strict") = false,
+          "(radiance, report) of points; burnish.shade documents the arguments.");
     m.def(
         "time_lookups",
         [](render::Renderer& renderer, const std::shared_ptr<Environment>& environment,

@@ -1,7 +1,8 @@
 """Frames and shaded points: arguments are checked here, the work is the extension's."""
 
+import warnings
 from collections.abc import Callable
-from typing import Any, Literal, TypeAlias
+from typing import Any, Literal, TypeAlias, overload
 
 import numpy as np
 from numpy.typing import NDArray
@@ -44,6 +45,37 @@ def _require_directions(array: Any, name: str, count: int | None = None) -> None
         raise ValueError(f"{name}: expected finite numbers, got {array[row].tolist()} in row {row}")
 
 
+@overload
+def shade(
+    env: _core.Environment,
+    material: _core.Material,
+    sampler: Sampler,
+    normals: FloatArray,
+    tangents: FloatArray,
+    views: FloatArray,
+    filter: Filter = ...,
+    device: _core.Device | None = ...,
+    strict: bool = ...,
+    report: Literal[False] = ...,
+) -> FloatArray: ...
+
+
+@overload
+def shade(
+    env: _core.Environment,
+    material: _core.Material,
+    sampler: Sampler,
+    normals: FloatArray,
+    tangents: FloatArray,
+    views: FloatArray,
+    filter: Filter = ...,
+    device: _core.Device | None = ...,
+    strict: bool = ...,
+    *,
+    report: Literal[True],
+) -> tuple[FloatArray, Report]: ...
+
+
 def shade(
     env: _core.Environment,
     material: _core.Material,
@@ -54,7 +86,8 @@ def shade(
     filter: Filter = "gauss6",
     device: _core.Device | None = None,
     strict: bool = False,
-) -> FloatArray:
+    report: bool = False,
+) -> FloatArray | tuple[FloatArray, Report]:
     """Shade surface points with the kernel that shades pictures.
 
     Parameters
@@ -79,16 +112,22 @@ def shade(
         None: the best one, opened once.
     strict : bool
         Raise where a value was not finite, instead of a black point and a warning.
+    report : bool
+        Give a report back as well, as pictures have one: passes, effects, samples that were taken, and what
+        would else be warned of.
 
     Returns
     -------
     radiance : (n, 3) float32
         Linear Rec. 709, toward the eye; (0, 3) where there are no points.
+    report : Report
+        Only where it was asked for.
 
     Warns
     -----
     RuntimeWarning
-        If a progressive reference stopped short of its standard error, or values were not finite.
+        If a progressive reference stopped short of its standard error, or values were not finite, and no
+        report was asked for.
 
     Raises
     ------
@@ -103,11 +142,18 @@ def shade(
     _require_directions(normals, "normals")
     _require_directions(tangents, "tangents", len(normals))
     _require_directions(views, "views", len(normals))
-    if len(normals) == 0:
-        return np.zeros((0, 3), np.float32)
-    return _core.shade(
-        device or default_device(), env, material, sampler, normals, tangents, views, filter, strict
-    )
+    radiance: FloatArray = np.zeros((0, 3), np.float32)
+    data: dict[str, Any] = {"spp": 1, "filter": filter, "problems": []}
+    if len(normals) > 0:
+        radiance, data = _core.shade(
+            device or default_device(), env, material, sampler, normals, tangents, views, filter, strict
+        )
+    problems = data.pop("problems")
+    if report:
+        return radiance, Report(data | {"points": len(radiance)})
+    for text in problems:
+        warnings.warn(text, RuntimeWarning, stacklevel=2)
+    return radiance
 
 
 def require_size(size: tuple[int, int]) -> tuple[int, int]:

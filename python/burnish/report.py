@@ -49,7 +49,10 @@ class Report:
 
     @property
     def classes(self) -> list[dict[str, Any]]:
-        """Specialised pipelines of the shade pass: effects, table, samples, materials, and why."""
+        """Specialised pipelines of the shade pass.
+
+        ``effects`` in words, ``values`` of each effect as a number, ``table``, ``samples`` and ``reason``.
+        """
         return list(self._data.get("classes", []))
 
     @property
@@ -72,6 +75,11 @@ class Report:
         """Height and width in pixels."""
         height, width = self._data.get("size", (0, 0))
         return int(height), int(width)
+
+    @property
+    def points(self) -> int:
+        """Number of shaded points; 0 of a picture."""
+        return int(self._data.get("points", 0))
 
     @property
     def spp(self) -> int:
@@ -194,6 +202,8 @@ class Report:
         device, sampler = self.device, self.sampler
         asked = sampler.get("requested", sampler.get("name", "no sampler"))
         picture = f"{width} x {height}, {self.spp} spp, {asked}"
+        if self.points:
+            picture = f"{self.points} points, {asked}"
         if self.samples_used:
             picture += f", samples used: {self.samples_used}"
         where = f"on {device.get('name', 'an unknown device')}, driver {device.get('driver', 'unknown')}"

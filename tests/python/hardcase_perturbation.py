@@ -115,7 +115,7 @@ class Replay:
         with pytest.MonkeyPatch.context() as patch:
             patch.setattr(bench, "shade", self.watch(bench.shade))
             patch.setattr(bench, "twin", self.watch(bench.twin, is_truth=True))
-            patch.setattr(picture_cases, "render", self.watch(picture_cases.render))
+            patch.setattr(picture_cases, "draw", self.watch(picture_cases.draw))
             patch.setattr(map_cases, "shade", self.watch(map_cases.shade))
             patch.setattr(pyramid_cases, "_levels", self.watch(pyramid_cases._levels))
             patch.setattr(_core, "capture", self.watch(_core.capture))

@@ -1,255 +1,128 @@
 #include "burnish/plan/effects.h"
 
 #include <algorithm>
-#include <functional>
-#include <set>
+#include <array>
 
 #include "burnish/error.h"
 #include "burnish/plan/material_traits.h"
-#include "burnish/sampler/matched_view_table.h"
-#include "burnish/scene/texture_kinds.h"
+#include "shared/constants.h"
 
 namespace burnish {
 namespace {
 
-/// The materials that objects show, each once.
-std::vector<const Material*> visible_materials(const Scene& scene) {
-    std::set<uint32_t> used;
-    for (const Object& object : scene.objects)
-        used.insert(object.material);
-    std::vector<const Material*> result;
-    for (const uint32_t material : used)
-        result.push_back(&scene.materials[material]);
-    return result;
+uint32_t alpha_form(const Subject& subject) {
+    uint32_t all = shared::ALPHA_ZERO;
+    for (const KurtLobe& lobe : subject.material.lobes) {
+        const uint32_t form = lobe.alpha == 0.0f   ? shared::ALPHA_ZERO
+                              : lobe.alpha == 0.5f ? shared::ALPHA_HALF
+                                                   : shared::ALPHA_GENERAL;
+        const bool is_first = &lobe == &subject.material.lobes.front();
+        all = is_first || all == form ? form : shared::ALPHA_GENERAL;
+    }
+    return all;
 }
 
-std::string listed(const std::vector<const Material*>& all, const std::vector<const Material*>& some) {
-    std::string names;
-    for (size_t k = 0; k < std::min<size_t>(some.size(), 3); ++k)
-        if (!some[k]->name.empty()) names += (names.empty() ? ": " : ", ") + some[k]->name;
-    if (!names.empty() && some.size() > 3) names += ", ...";
-    return message(some.size(), " of ", all.size(), all.size() == 1 ? " material" : " materials", names);
+bool has_fresnel(const Subject& subject) {
+    return any_lobe(subject.material,
+                    [&](const KurtLobe& lobe) { return lobe.has_fresnel() || is_varying(subject.material); });
 }
 
-/// One line that is on where some visible material asks for it.
-void add_material_line(const Scene& scene, Plan& plan, const std::string& name, const std::string& off_reason,
-                       const std::function<bool(const Material&)>& asks) {
-    const std::vector<const Material*> all = visible_materials(scene);
-    std::vector<const Material*> some;
-    std::copy_if(all.begin(), all.end(), std::back_inserter(some),
-                 [&](const Material* one) { return asks(*one); });
-    plan.effects.push_back({name, !some.empty(), some.empty() ? off_reason : listed(all, some)});
+bool conserves_energy(const Subject& subject) {
+    // With alpha = 0 nothing is gained.
+    return any_lobe(subject.material,
+                    [](const KurtLobe& lobe) { return lobe.conserve_energy && lobe.alpha > 0.0f; });
 }
 
-size_t set_count(const Plan& plan, MapLookup lookup) {
-    return size_t(std::count_if(plan.map_sets.begin(), plan.map_sets.end(),
-                                [&](const MapSet& set) { return set.lookup == lookup; }));
+bool has_lobes(const Variant& variant) {
+    return variant[shared::SPEC_LOBE_COUNT] > 0;
 }
 
-std::string lookup_reason(const Plan& plan) {
-    const LookupChoice& lookup = plan.settings.lookup;
-    const auto some = [&](MapLookup which, const char* text) {
-        const size_t count = set_count(plan, which);
-        return count ? message("; maps of ", count, " of ", plan.map_sets.size(), " sizes are ", text) : "";
-    };
-    if (lookup.wanted == MapLookup::sampler) return lookup.reason;
-    return lookup.reason +
-           some(MapLookup::software_stored,
-                "read from storage buffers: they are too large for texel buffers") +
-           some(MapLookup::sampler, "read by the device's sampler: they are too large for its buffers");
+uint32_t on(uint32_t, const Variant&) {
+    return 1;
 }
 
-std::string why_at_every_point(const ShadeTraits& traits, const std::vector<const Material*>& materials) {
-    if (traits.has_varying) return "roughness varies over the surface";
-    for (const Material* material : materials)
-        for (const KurtLobe& lobe : material->lobes)
-            if (!fits_view_table(lobe.roughness))
-                return "a table by view would be too coarse for so brushed a lobe";
-    return "tables by view of so many brushed lobes would take too much memory";
+uint32_t on_of_lobes(uint32_t value, const Variant& variant) {
+    return has_lobes(variant) ? 1 : value;
 }
 
-std::string why_from_buffer(const ShadeTraits& traits, const Plan& plan, size_t constant_count) {
-    const PlanSettings& settings = plan.settings;
-    if (traits.lobe_count > 1) return "several lobes";
-    if (!plan.sampler.fits_constants) return "too many samples for constants";
-    if (settings.sample_source == SampleSource::meanwhile)
-        return "the pipeline that has them as constants is being compiled";
-    if (settings.sample_source == SampleSource::buffer)
-        return "pipelines that roughnesses share are asked for";
-    if (settings.sample_source == SampleSource::one_by_one)
-        return "one after the other, which compiles soonest";
-    if (settings.sample_source == SampleSource::loop) return "read in a loop for a benchmark";
-    if (constant_count > MAX_CONSTANT_CLASSES)
-        return message(constant_count, " roughnesses in the picture, more than ", MAX_CONSTANT_CLASSES,
-                       " worth a pipeline each");
-    return "too many kinds of material in the picture for a pipeline each";
+uint32_t shared_coat(uint32_t value, const Variant& variant) {
+    return variant[shared::SPEC_HAS_VARYING] && variant[shared::SPEC_LOBE_COUNT] > 1 ? 1 : value;
 }
+
+constexpr std::array EFFECTS = {
+    Effect{shared::SPEC_LOBE_COUNT, "lobe", "no material has a lobe", true, true,
+           [](const Subject& one) { return uint32_t(one.material.lobes.size()); }, nullptr},
+    Effect{shared::SPEC_HAS_FRESNEL, "fresnel", "every lobe has r0 = 1", true, false,
+           [](const Subject& one) { return uint32_t(has_fresnel(one)); }, on_of_lobes},
+    Effect{shared::SPEC_ALPHA, "alpha", "every lobe has alpha = 0", true, false, alpha_form,
+           [](uint32_t value, const Variant& all) { return has_lobes(all) ? shared::ALPHA_GENERAL : value; }},
+    Effect{shared::SPEC_CONSERVES_ENERGY, "energy conservation", "no lobe asks for it", true, true,
+           [](const Subject& one) { return uint32_t(conserves_energy(one)); }, on_of_lobes},
+    Effect{shared::SPEC_HAS_TANGENT, "anisotropy", "every lobe is round", true, true,
+           [](const Subject& one) { return uint32_t(is_brushed(one.material)); }, on_of_lobes},
+    Effect{shared::SPEC_HAS_COAT, "clear coat", nullptr, true, true,
+           [](const Subject& one) { return uint32_t(is_varying(one.material) && has_coat(one.material)); },
+           shared_coat},
+    Effect{shared::SPEC_HAS_COAT_NORMAL, "clear coat normal",
+           "no clear coat lies over a normal map or has one", true, true,
+           [](const Subject& one) { return uint32_t(has_coat_normal(one.material)); },
+           [](uint32_t value, const Variant& all) {
+               return has_lobes(all) ? shared_coat(all[shared::SPEC_HAS_COAT], all) : value;
+           }},
+    Effect{shared::SPEC_HAS_DIFFUSE, "diffuse", "every diffuse reflectance is 0", false, true,
+           [](const Subject& one) { return uint32_t(has_diffuse(one.material)); }, on},
+    Effect{shared::SPEC_HAS_EMISSIVE, "emissive", "no material emits", false, true,
+           [](const Subject& one) { return uint32_t(has_emissive(one.material)); }, on},
+    Effect{shared::SPEC_HAS_VARYING, "textures", nullptr, false, true,
+           [](const Subject& one) { return uint32_t(is_varying(one.material)); }, nullptr},
+    Effect{shared::SPEC_SUN_COUNT, "sun split", nullptr, true, false,
+           [](const Subject& one) { return one.material.lobes.empty() ? 0 : one.sun_count; },
+           // Those that are not there have no flux.
+           [](uint32_t value, const Variant&) { return value > 0 ? shared::MAX_SUNS : 0; }},
+    Effect{shared::SPEC_HAS_MAP_ROTATION, "map rotation", nullptr, false, true,
+           [](const Subject& one) { return uint32_t(one.is_map_turned); }, on},
+};
 
 } // namespace
 
-std::string describe(const ShadeClass& one, const Scene& scene, const Plan& plan, size_t constant_count) {
-    std::vector<const Material*> some;
-    for (const uint32_t instance : one.instances) {
-        const Material* material = &scene.materials[plan.instances[instance].material];
-        if (std::find(some.begin(), some.end(), material) == some.end()) some.push_back(material);
-    }
-    std::string text = listed(visible_materials(scene), some);
-    const bool is_too_long = writes_out_samples(plan.settings) && !unrolls_samples(plan, one.traits);
-    const char* const loop = is_too_long ? "; in a loop, too many samples to be written out" : "";
-    switch (one.traits.table) {
-    case TableForm::none:
-        break;
-    case TableForm::constant:
-        text += message("; one roughness (", one.traits.roughness.x, ", ", one.traits.roughness.y,
-                        "), its samples are constants");
-        break;
-    case TableForm::buffer:
-        text +=
-            message("; ", why_from_buffer(one.traits, plan, constant_count), ", samples from a buffer", loop);
-        break;
-    case TableForm::scaled:
-        text += message("; roughness varies over the surface, samples scale with it", loop);
-        break;
-    case TableForm::matched:
-        text += "; mixtures placed at every point: " + why_at_every_point(one.traits, some);
-        break;
-    case TableForm::matched_by_view:
-        text += "; mixtures placed for every view when the material changes";
-        break;
-    case TableForm::prefiltered:
-        text += "; one lookup a lobe in a prefiltered map";
-        if (one.traits.has_tangent) text += ", brushed lobes as the round ones of slope sqrt(mx my)";
-        break;
-    }
-    return text;
+std::span<const Effect> effects() {
+    return EFFECTS;
 }
 
-const char* describe_diffuse(const SamplerFacts& sampler) {
-    const std::optional<DiffuseForm> form = sampler.diffuse;
-    if (!form) return "the sum over every texel, or sampled";
-    return *form == DiffuseForm::cube ? "one lookup in a cube of exact sums" : "nine spherical harmonics";
+Variant variant_of(const Subject& subject, bool has_lobes) {
+    Variant variant;
+    for (const Effect& effect : EFFECTS)
+        if (has_lobes || !effect.is_of_lobes) variant[effect.constant] = effect.wanted(subject);
+    return variant;
 }
 
-void add_effect_lines(const Scene& scene, Plan& plan) {
-    const bool has_lobes = plan.settings.has_lobes;
-    const auto add = [&](const char* name, const char* off,
-                         const std::function<bool(const Material&)>& asks) {
-        add_material_line(scene, plan, name, off, asks);
-    };
-    const auto add_lobe_effect = [&](const char* name, const char* off,
-                                     const std::function<bool(const Material&)>& asks) {
-        if (has_lobes)
-            add(name, off, asks);
+Variant shared_variant(const Variant& variant) {
+    Variant result = variant;
+    for (const Effect& effect : EFFECTS)
+        if (effect.shared) result[effect.constant] = effect.shared(variant[effect.constant], variant);
+    return result;
+}
+
+std::vector<std::string> effect_names(const Variant& variant) {
+    std::vector<std::string> names;
+    for (const Effect& effect : EFFECTS) {
+        const uint32_t value = variant[effect.constant];
+        if (value == 0) continue;
+        if (effect.constant == shared::SPEC_LOBE_COUNT)
+            names.push_back(value == 1 ? "1 lobe" : message(value, " lobes"));
+        else if (effect.constant == shared::SPEC_ALPHA && value == shared::ALPHA_HALF)
+            names.emplace_back("alpha .5");
         else
-            plan.effects.push_back({name, false, "captured maps leave lobes out"});
-    };
-    add_lobe_effect("lobe", "no material has a lobe", [](const Material& one) { return !one.lobes.empty(); });
-    for (uint32_t k = 2; k <= MAX_LOBES; ++k)
-        add_lobe_effect(("lobe " + std::to_string(k)).c_str(),
-                        ("no material has " + std::to_string(k) + " lobes").c_str(),
-                        [k](const Material& one) { return one.lobes.size() >= k; });
-    add_lobe_effect("fresnel", "every lobe has r0 = 1", [](const Material& one) {
-        return any_lobe(one, [&](const KurtLobe& lobe) { return lobe.has_fresnel() || is_varying(one); });
-    });
-    add_lobe_effect("alpha", "every lobe has alpha = 0", [](const Material& one) {
-        return any_lobe(one, [](const KurtLobe& lobe) { return lobe.alpha != 0.0f; });
-    });
-    add_lobe_effect("energy conservation", "no lobe asks for it", [](const Material& one) {
-        return any_lobe(one, [](const KurtLobe& lobe) { return lobe.conserve_energy && lobe.alpha > 0.0f; });
-    });
-    add_lobe_effect("anisotropy", "every lobe is round", is_brushed);
-    add_lobe_effect("clear coat normal", "no clear coat lies over a normal map or has one", has_coat_normal);
-    add("diffuse", "every diffuse reflectance is 0", has_diffuse);
-    if (plan.effects.back().is_on)
-        plan.effects.back().reason += message("; ", describe_diffuse(plan.sampler));
-    add("emissive", "no material emits", has_emissive);
-    for (const TextureKind& kind : TEXTURE_KINDS)
-        add(kind.name, "no material has one",
-            [&](const Material& one) { return has_texture(one, kind.use); });
-    add("vertex colour", "no material has vertex colours",
-        [](const Material& one) { return one.source && one.source->has_vertex_color; });
-    add("unlit", "every material is lit",
-        [](const Material& one) { return one.source && one.source->is_unlit; });
-    add("alpha mask", "every material is opaque",
-        [](const Material& one) { return one.alpha_mode != AlphaMode::opaque; });
-
-    const auto own = std::count_if(scene.objects.begin(), scene.objects.end(),
-                                   [](const Object& object) { return object.reflects != nullptr; });
-    plan.effects.push_back(
-        {"own maps", own > 0,
-         own > 0 ? message(own, " of ", scene.objects.size(), " objects reflect a map of their own")
-                 : "every object reflects the scene's environment"});
-    size_t sun_count = 0;
-    for (const std::vector<Sun>& suns : plan.suns)
-        sun_count += suns.size();
-    plan.effects.push_back({"sun split", sun_count > 0,
-                            sun_count > 0 ? message(sun_count, sun_count == 1 ? " sun is" : " suns are",
-                                                    " taken out of the map and shaded directly")
-                            : plan.sampler.takes_suns_out ? "no map has a sun"
-                                                          : "only the matched sampler splits suns off"});
-    const bool has_rotation = std::any_of(plan.environments.begin(), plan.environments.end(),
-                                          [](const auto& one) { return one->rotation != glm::mat3(1.0f); });
-    plan.effects.push_back({"map rotation", has_rotation,
-                            has_rotation ? "an environment is turned" : "no environment is turned"});
-    const bool is_software = set_count(plan, MapLookup::sampler) < plan.map_sets.size();
-    plan.effects.push_back({"software lookup", is_software, lookup_reason(plan)});
-    plan.effects.push_back({"background", plan.has_background,
-                            plan.has_background     ? "the environment is shown where no object is"
-                            : scene.show_background ? "the scene has no environment"
-                                                    : "switched off for the scene"});
-    const std::optional<float> exposure = plan.settings.display_exposure;
-    plan.effects.push_back({"display output", exposure.has_value(),
-                            !exposure ? "linear radiance is asked for"
-                            : plan.settings.spp > 1
-                                ? "after accumulation: the mean is stored as 8-bit sRGB"
-                                : "fused into the store: 8-bit sRGB, nothing else needs linear radiance"});
-    plan.effects.push_back(
-        {"accumulation", plan.settings.spp > 1,
-         plan.settings.spp > 1 ? message(plan.settings.spp, " jittered pictures are averaged") : "spp = 1"});
-}
-
-void warn_of_missing_tangents(const Scene& scene, Plan& plan) {
-    if (!plan.settings.has_lobes) return;
-    std::set<uint32_t> warned;
-    for (const Object& object : scene.objects) {
-        if (object.mesh >= scene.meshes.size()) continue; // points bring their tangents
-        const Mesh& mesh = scene.meshes[object.mesh];
-        const bool has_some = !mesh.tangents.empty() || !mesh.uv0.empty() || !mesh.uv1.empty();
-        if (has_some || !needs_tangent(scene.materials[object.material])) continue;
-        if (!warned.insert(object.mesh).second) continue;
-        plan.warnings.push_back(message("mesh \"", mesh.name,
-                                        "\": expected tangents or texture coordinates, got none: what is "
-                                        "brushed on it follows the longitude around its y axis"));
+            names.emplace_back(effect.name);
     }
+    return names;
 }
 
-void add_pass_lines(Plan& plan) {
-    const auto add = [&](const char* name, std::string reason) {
-        plan.passes.push_back({name, std::move(reason)});
-    };
-    const bool is_reference = plan.sampler.is_truth;
-    if (plan.has_lookups && plan.sampler.levels != MapLevels::none)
-        add("pyramid",
-            message(pyramid_filter_name(plan.settings.filter), " levels of ", plan.environments.size(),
-                    plan.environments.size() == 1 ? " map" : " maps", ", once per map"));
-    if (plan.has_lookups && !plan.sampler.levels_reason.empty()) add("prefilter", plan.sampler.levels_reason);
-    if (!plan.diffuse_environments.empty() && !is_reference)
-        add("irradiance", message("cosine sums over every texel of ", plan.diffuse_environments.size(),
-                                  plan.diffuse_environments.size() == 1 ? " map" : " maps",
-                                  ", which something diffuse sees; on the host, once per map"));
-    if (set_count(plan, MapLookup::sampler) < plan.map_sets.size())
-        add("pack", "pairs of texels for the software lookup, once per map");
-    add("surface", plan.has_varying
-                       ? "rasterises into the wide G-buffer: textures or vertex colours vary over a surface"
-                       : "rasterises into 8 bytes a pixel and depth");
-    add("tiles", message("lists the 8x8 tiles of ", plan.classes.size(),
-                         plan.classes.size() == 1 ? " shade class" : " shade classes",
-                         plan.has_background ? " and of the background" : ""));
-    for (size_t k = 0; k < plan.classes.size(); ++k)
-        plan.passes.push_back({message(is_reference ? "reference " : "shade ", k), plan.classes[k].reason});
-    if (plan.has_background) add("background", "the environment where no object is");
-    if (plan.settings.spp > 1) add("accumulate", message("mean of ", plan.settings.spp, " pictures"));
-    add("read back", "picture, depth and normals to the host");
+std::vector<EffectValue> effect_values(const Variant& variant) {
+    std::vector<EffectValue> values;
+    for (const Effect& effect : EFFECTS)
+        values.push_back({effect.name, variant[effect.constant]});
+    return values;
 }
 
 } // namespace burnish

@@ -1,19 +1,53 @@
-// The lines that say what materials call for, and why.
+// The effects that materials call for. A row is all that an effect is on the host: its constant in the shade
+// kernels, its line in reports, and what becomes of it where kinds of material share a pipeline.
 #pragma once
 
+#include <span>
 #include <string>
+#include <vector>
 
-#include "burnish/plan/plan.h"
+#include "burnish/plan/variant.h"
+#include "burnish/scene/material.h"
 
 namespace burnish {
 
-/// How the sampler sees the light on diffuse surfaces.
-const char* describe_diffuse(const SamplerFacts& sampler);
-/// "2 of 5 materials, regular:14 from constants, ...": why this pipeline exists.
-std::string describe(const ShadeClass& one, const Scene& scene, const Plan& plan, size_t constant_count);
-void add_effect_lines(const Scene& scene, Plan& plan);
-void add_pass_lines(Plan& plan);
-/// Says where brushed surfaces have no direction of their own.
-void warn_of_missing_tangents(const Scene& scene, Plan& plan);
+/// A material as it is seen with one map.
+struct Subject {
+    const Material& material;
+    bool is_map_turned = false;
+    uint32_t sun_count = 0; ///< taken out of the map
+};
+
+struct Effect {
+    uint32_t constant; ///< SPEC_... of glsl/shared/constants.h
+    const char* name;
+    /// Why no material of a scene has it; null: no line of its own.
+    const char* off;
+    bool is_of_lobes;     ///< captured maps leave it out
+    bool is_of_reference; ///< kernels of the truth know it, too
+    /// Value of the constant; 0 where the material does not call for it.
+    uint32_t (*wanted)(const Subject& subject);
+    /// Value in a pipeline that many kinds of material share, of what it is and of all: it costs some speed
+    /// and changes no picture, as an effect that is on and zero adds nothing. Null: as it is.
+    uint32_t (*shared)(uint32_t value, const Variant& variant);
+};
+
+/// All of them, in the order of reports.
+std::span<const Effect> effects();
+
+/// What a subject calls for; without lobes: of captured maps.
+Variant variant_of(const Subject& subject, bool has_lobes);
+/// The same with all that pipelines can share.
+Variant shared_variant(const Variant& variant);
+
+/// Names of what is on, for people: "2 lobes", "fresnel", "alpha .5", ...
+std::vector<std::string> effect_names(const Variant& variant);
+
+struct EffectValue {
+    const char* name;
+    uint32_t value;
+};
+/// Of every effect, for programs.
+std::vector<EffectValue> effect_values(const Variant& variant);
 
 } // namespace burnish

@@ -7,6 +7,7 @@
 
 #include "burnish/error.h"
 #include "burnish/plan/effects.h"
+#include "burnish/plan/lines.h"
 #include "burnish/plan/material_traits.h"
 #include "burnish/sampler/matched_view_table.h"
 #include "shared/constants.h"
@@ -102,118 +103,91 @@ bool fit_view_tables(const Scene& scene, const Plan& plan) {
 /// Samples depend on the lobe and the view in its frame: they are placed once for every view, unless a
 /// texture varies the lobe, or tables would be too coarse or too large. Then they are placed at every point,
 /// with as many points a component as the widest lobe needs.
-TableForm matched_form(const Material& material, bool fit_tables, ShadeTraits& traits) {
+TableForm matched_form(const Material& material, bool fit_tables, ShadeClass& one) {
     const auto any = [&](const auto& asks) {
         return std::any_of(material.lobes.begin(), material.lobes.end(), asks);
     };
-    if (!traits.has_varying && !any([&](const KurtLobe& lobe) {
+    const bool has_varying = one.variant[shared::SPEC_HAS_VARYING];
+    if (!has_varying && !any([&](const KurtLobe& lobe) {
             return lobe.is_anisotropic() && !(fit_tables && fits_view_table(lobe.roughness));
         }))
         return TableForm::matched_by_view;
-    traits.has_wide_components = traits.has_varying || any([](const KurtLobe& lobe) {
-                                     return std::min(lobe.roughness.x, lobe.roughness.y) > WIDE_LOBE;
-                                 });
+    one.has_wide_components = has_varying || any([](const KurtLobe& lobe) {
+                                  return std::min(lobe.roughness.x, lobe.roughness.y) > WIDE_LOBE;
+                              });
     return TableForm::matched;
 }
 
-ShadeTraits traits_of(const Scene& scene, const Plan& plan, const MaterialInstance& instance,
-                      bool fit_tables) {
+ShadeClass class_of(const Scene& scene, const Plan& plan, const MaterialInstance& instance, bool fit_tables) {
     const Material& material = scene.materials[instance.material];
-    ShadeTraits traits;
-    traits.has_varying = is_varying(material);
-    traits.has_coat = traits.has_varying && has_coat(material);
-    traits.has_coat_normal = has_coat_normal(material);
-    traits.has_diffuse = has_diffuse(material);
-    traits.has_emissive = has_emissive(material);
     const Environment& environment = *plan.environments[instance.environment];
-    traits.has_map_rotation = environment.rotation != glm::mat3(1.0f);
-    traits.map_set = map_set_of(plan, instance.environment);
-    if (!plan.settings.has_lobes) return traits;
-    if (!material.lobes.empty()) traits.sun_count = uint32_t(plan.suns[instance.environment].size());
-
-    traits.lobe_count = uint32_t(material.lobes.size());
-    for (const KurtLobe& lobe : material.lobes) {
-        traits.has_fresnel |= lobe.has_fresnel() || traits.has_varying;
-        traits.conserves_energy |=
-            lobe.conserve_energy && lobe.alpha > 0.0f; // with alpha = 0 nothing is gained
-        const AlphaForm form = lobe.alpha == 0.0f   ? AlphaForm::zero
-                               : lobe.alpha == 0.5f ? AlphaForm::half
-                                                    : AlphaForm::general;
-        const bool is_first = &lobe == &material.lobes.front();
-        traits.alpha = is_first || traits.alpha == form ? form : AlphaForm::general;
-    }
-    traits.has_tangent = is_brushed(material);
-    if (traits.lobe_count == 0) return traits;
+    const Subject subject{material, environment.rotation != glm::mat3(1.0f),
+                          uint32_t(plan.suns[instance.environment].size())};
+    ShadeClass one;
+    one.variant = variant_of(subject, plan.settings.has_lobes);
+    one.map_set = map_set_of(plan, instance.environment);
+    if (one.variant[shared::SPEC_LOBE_COUNT] == 0) return one;
     switch (plan.sampler.placing) {
     case Placing::none:
         break;
     case Placing::mixtures:
-        traits.table = matched_form(material, fit_tables, traits);
+        one.table = matched_form(material, fit_tables, one);
         break;
     case Placing::mirror:
-        traits.table = TableForm::prefiltered;
+        one.table = TableForm::prefiltered;
         break;
     case Placing::pattern:
-        if (traits.has_varying) {
-            traits.table = TableForm::scaled;
-        } else if (plan.settings.sample_source == SampleSource::constants && traits.lobe_count == 1 &&
-                   plan.sampler.fits_constants) {
-            traits.table = TableForm::constant;
-            traits.roughness = material.lobes[0].roughness;
+        if (one.variant[shared::SPEC_HAS_VARYING]) {
+            one.table = TableForm::scaled;
+        } else if (plan.settings.sample_source == SampleSource::constants &&
+                   one.variant[shared::SPEC_LOBE_COUNT] == 1 && plan.sampler.fits_constants) {
+            one.table = TableForm::constant;
+            one.roughness = material.lobes[0].roughness;
         } else {
-            traits.table = TableForm::buffer;
+            one.table = TableForm::buffer;
         }
         break;
     }
-    return traits;
+    return one;
 }
 
-/// Groups instances of equal traits, after `coarsen` has dropped what may be dropped.
-void group(Plan& plan, const std::vector<ShadeTraits>& traits,
-           const std::function<void(ShadeTraits&)>& coarsen) {
+/// Groups instances that can share a pipeline, after `coarsen` has dropped what may be dropped.
+void group(Plan& plan, const std::vector<ShadeClass>& classes,
+           const std::function<void(ShadeClass&)>& coarsen) {
     plan.classes.clear();
     for (uint32_t k = 0; k < plan.instances.size(); ++k) {
-        ShadeTraits wanted = traits[k];
+        ShadeClass wanted = classes[k];
         coarsen(wanted);
         auto found = std::find_if(plan.classes.begin(), plan.classes.end(),
-                                  [&](const ShadeClass& one) { return one.traits == wanted; });
-        if (found == plan.classes.end()) found = plan.classes.insert(found, {wanted, {}, {}});
+                                  [&](const ShadeClass& one) { return one.can_share(wanted); });
+        if (found == plan.classes.end()) found = plan.classes.insert(found, std::move(wanted));
         found->instances.push_back(k);
         plan.instances[k].shade_class = uint32_t(found - plan.classes.begin());
     }
 }
 
-void read_tables_from_buffer(ShadeTraits& traits) {
-    if (traits.table != TableForm::constant) return;
-    traits.table = TableForm::buffer;
-    traits.roughness = glm::vec2(0.0f);
+void read_tables_from_buffer(ShadeClass& one) {
+    if (one.table != TableForm::constant) return;
+    one.table = TableForm::buffer;
+    one.roughness = glm::vec2(0.0f);
 }
 
-/// Costs some speed, changes no picture: an effect that is on and zero adds nothing.
-void share_pipelines(ShadeTraits& traits) {
-    read_tables_from_buffer(traits);
-    traits.has_diffuse = traits.has_emissive = traits.has_map_rotation = true;
-    if (traits.lobe_count == 0) return;
-    traits.has_fresnel = traits.has_tangent = traits.conserves_energy = true;
-    traits.has_wide_components = traits.table == TableForm::matched;
-    traits.alpha = AlphaForm::general;
-    traits.has_coat |= traits.has_varying && traits.lobe_count > 1;
-    traits.has_coat_normal = traits.has_coat;
-    if (traits.sun_count > 0) traits.sun_count = shared::MAX_SUNS; // those that are not there have no flux
+void share_pipelines(ShadeClass& one) {
+    read_tables_from_buffer(one);
+    one.variant = shared_variant(one.variant);
+    one.has_wide_components = one.table == TableForm::matched;
 }
 
 void add_classes(const Scene& scene, Plan& plan) {
-    std::vector<ShadeTraits> traits;
+    std::vector<ShadeClass> classes;
     const bool fit_tables = fit_view_tables(scene, plan);
     for (const MaterialInstance& instance : plan.instances)
-        traits.push_back(traits_of(scene, plan, instance, fit_tables));
-    group(plan, traits, [](ShadeTraits&) {});
-    const auto constant_count =
-        std::count_if(plan.classes.begin(), plan.classes.end(),
-                      [](const ShadeClass& one) { return one.traits.table == TableForm::constant; });
-    if (size_t(constant_count) > MAX_CONSTANT_CLASSES) group(plan, traits, read_tables_from_buffer);
+        classes.push_back(class_of(scene, plan, instance, fit_tables));
+    group(plan, classes, [](ShadeClass&) {});
+    const auto constant_count = std::ranges::count(plan.classes, TableForm::constant, &ShadeClass::table);
+    if (size_t(constant_count) > MAX_CONSTANT_CLASSES) group(plan, classes, read_tables_from_buffer);
     // One class is left for the background.
-    if (plan.classes.size() > shared::MAX_SHADE_CLASSES - 1) group(plan, traits, share_pipelines);
+    if (plan.classes.size() > shared::MAX_SHADE_CLASSES - 1) group(plan, classes, share_pipelines);
     if (plan.classes.size() > shared::MAX_SHADE_CLASSES - 1)
         throw std::invalid_argument(message("scene: expected at most ", shared::MAX_SHADE_CLASSES - 1,
                                             " combinations of lobe count, face size and texturing, got ",
@@ -225,10 +199,10 @@ void add_classes(const Scene& scene, Plan& plan) {
             plan.diffuse_environments.push_back(instance.environment);
     for (ShadeClass& one : plan.classes) {
         one.reason = describe(one, scene, plan, size_t(constant_count));
-        plan.has_lookups |= one.traits.lobe_count > 0;
-        plan.has_varying |= one.traits.has_varying;
-        plan.has_coat |= one.traits.has_coat;
-        plan.has_tangent |= one.traits.has_tangent;
+        plan.has_lookups |= one.variant[shared::SPEC_LOBE_COUNT] > 0;
+        plan.has_varying |= one.variant[shared::SPEC_HAS_VARYING];
+        plan.has_coat |= one.variant[shared::SPEC_HAS_COAT];
+        plan.has_tangent |= one.variant[shared::SPEC_HAS_TANGENT];
     }
 }
 
@@ -252,10 +226,11 @@ bool writes_out_samples(const PlanSettings& settings) {
     return settings.sample_source != SampleSource::one_by_one && settings.sample_source != SampleSource::loop;
 }
 
-bool unrolls_samples(const Plan& plan, const ShadeTraits& traits) {
+bool unrolls_samples(const Plan& plan, const ShadeClass& one) {
     if (!writes_out_samples(plan.settings)) return false;
-    if (traits.table != TableForm::buffer && traits.table != TableForm::scaled) return false;
-    return uint64_t(plan.sampler.samples) * traits.lobe_count <= shared::MAX_UNROLLED_SAMPLES;
+    if (one.table != TableForm::buffer && one.table != TableForm::scaled) return false;
+    return uint64_t(plan.sampler.samples) * one.variant[shared::SPEC_LOBE_COUNT] <=
+           shared::MAX_UNROLLED_SAMPLES;
 }
 
 SplitEnvironment SunCache::split(const std::shared_ptr<const Environment>& environment) {

@@ -12,6 +12,7 @@
 #include "burnish/light/pyramid_filter.h"
 #include "burnish/light/sun_split.h"
 #include "burnish/plan/map_lookup.h"
+#include "burnish/plan/variant.h"
 #include "burnish/sampler/sampler.h"
 #include "burnish/scene/scene.h"
 
@@ -49,38 +50,25 @@ struct PassLine {
     std::string reason;
 };
 
-enum class AlphaForm { zero, half, general };
 /// Where a class's samples come from: baked into the pipeline; a buffer; a buffer in units of a varying
 /// roughness; mixtures by the lobe's aspect, placed at every point, or by the
 /// view, placed for the material; the one lookup of a prefiltered map.
 enum class TableForm { none, constant, buffer, scaled, matched, matched_by_view, prefiltered };
 
-/// One specialised pipeline and what it is made for. Two materials of equal traits share it.
-struct ShadeTraits {
-    uint32_t lobe_count = 0;
-    bool has_fresnel = false;
-    AlphaForm alpha = AlphaForm::zero;
-    bool conserves_energy = false;
-    bool has_tangent = false;
-    bool has_diffuse = false;
-    bool has_emissive = false;
-    bool has_varying = false;
-    bool has_coat = false;        ///< of varying materials: their last lobe
-    bool has_coat_normal = false; ///< the coat's normal is not the base's
-    bool has_map_rotation = false;
+/// One specialised pipeline and what it is made for. Materials of equal ones share it.
+struct ShadeClass {
+    Variant variant;
     TableForm table = TableForm::none;
     bool has_wide_components = false; ///< of matched tables: more points for a component's mean direction
     glm::vec2 roughness{0.0f};        ///< of constant tables, else 0
-    uint32_t sun_count = 0;           ///< lights taken out of its map
     uint32_t map_set = 0;             ///< index into Plan::map_sets
-
-    bool operator==(const ShadeTraits&) const = default;
-};
-
-struct ShadeClass {
-    ShadeTraits traits;
-    std::vector<uint32_t> instances; ///< into Plan::instances
+    std::vector<uint32_t> instances;  ///< into Plan::instances
     std::string reason;
+
+    bool can_share(const ShadeClass& other) const {
+        return variant == other.variant && table == other.table && roughness == other.roughness &&
+               has_wide_components == other.has_wide_components && map_set == other.map_set;
+    }
 };
 
 /// A material seen with one map: what a surface point refers to.
@@ -149,7 +137,7 @@ constexpr size_t MAX_CONSTANT_CLASSES = 6;
 bool writes_out_samples(const PlanSettings& settings);
 
 /// Whether tables that are read from a buffer are read without a loop: where all lookups of a point are few.
-bool unrolls_samples(const Plan& plan, const ShadeTraits& traits);
+bool unrolls_samples(const Plan& plan, const ShadeClass& one);
 
 /// Chooses passes and shader variants. Throws std::invalid_argument for settings out of range.
 Plan make_plan(const Scene& scene, const PlanSettings& settings, SunCache& suns);

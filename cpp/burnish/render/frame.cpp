@@ -52,25 +52,6 @@ std::vector<glm::vec3> Frame::normals() {
     return result;
 }
 
-std::vector<std::string> effect_names(const ShadeTraits& traits) {
-    std::vector<std::string> names;
-    const auto add = [&](bool is_on, std::string name) {
-        if (is_on) names.push_back(std::move(name));
-    };
-    add(traits.lobe_count > 0, traits.lobe_count == 1 ? "1 lobe" : message(traits.lobe_count, " lobes"));
-    add(traits.has_fresnel, "fresnel");
-    add(traits.alpha == AlphaForm::half, "alpha .5");
-    add(traits.alpha == AlphaForm::general, "alpha");
-    add(traits.conserves_energy, "energy conservation");
-    add(traits.has_tangent, "anisotropy");
-    add(traits.has_diffuse, "diffuse");
-    add(traits.has_emissive, "emissive");
-    add(traits.has_varying, "textures");
-    add(traits.has_coat, "clear coat");
-    add(traits.has_map_rotation, "map rotation");
-    return names;
-}
-
 const char* table_name(TableForm form) {
     switch (form) {
     case TableForm::none:

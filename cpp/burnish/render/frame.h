@@ -11,7 +11,7 @@
 namespace burnish::render {
 
 struct ClassReport {
-    std::vector<std::string> effects;
+    Variant variant;
     std::string table;   ///< none, constant, buffer, scaled
     std::string samples; ///< really used, for each lobe
     std::string reason;
@@ -79,8 +79,7 @@ private:
     std::vector<glm::uvec2> surface_; // packed surface attributes, of the first picture
 };
 
-/// For reports: "1 lobe", "fresnel", ...; and "none", "constant", "buffer", "scaled".
-std::vector<std::string> effect_names(const ShadeTraits& traits);
+/// For reports: "none", "constant", "buffer", "scaled", ...
 const char* table_name(TableForm form);
 
 /// Adds the times of passes of one name to those there are.

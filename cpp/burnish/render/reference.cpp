@@ -35,7 +35,8 @@ uint64_t texels_of(const Plan& plan) {
 uint32_t sums_of(const Plan& plan) {
     uint32_t most = 1;
     for (const ShadeClass& one : plan.classes)
-        most = std::max(most, one.traits.lobe_count + (one.traits.has_diffuse ? 1 : 0));
+        most = std::max(most, one.variant[shared::SPEC_LOBE_COUNT] +
+                                  (one.variant[shared::SPEC_HAS_DIFFUSE] ? 1 : 0));
     return most;
 }
 

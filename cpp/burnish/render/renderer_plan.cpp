@@ -22,8 +22,7 @@ Renderer::ShadePlan Renderer::plan_shading(const Scene& scene, const PlanSetting
 
     std::vector<ComputeKey> keys;
     for (uint32_t k = 0; k < plan.classes.size(); ++k)
-        if (plan.classes[k].traits.table == TableForm::constant)
-            keys.push_back(shade_key(plan, tables, k, target));
+        if (plan.classes[k].table == TableForm::constant) keys.push_back(shade_key(plan, tables, k, target));
     if (pipelines_.request(keys)) return {std::move(plan), std::move(tables)};
 
     PlanSettings meanwhile = settings;

@@ -37,8 +37,7 @@ Report Renderer::start_report(const Scene& scene, const Plan& plan, const ShadeT
     report.warnings = plan.warnings;
     for (size_t k = 0; k < plan.classes.size(); ++k) {
         const ShadeClass& one = plan.classes[k];
-        report.classes.push_back(
-            {effect_names(one.traits), table_name(one.traits.table), tables.samples_used[k], one.reason});
+        report.classes.push_back({one.variant, table_name(one.table), tables.samples_used[k], one.reason});
     }
     report.warnings.insert(report.warnings.end(), scene.warnings.begin(), scene.warnings.end());
     report.ignored_extensions = scene.ignored_extensions;

@@ -31,7 +31,7 @@ ShadePass::ShadePass(Pipelines& pipelines, const Plan& plan, const ShadeTables& 
         const ShadeTarget target{is_points, inputs.display != nullptr, inputs.counts_non_finite};
         const auto [shader, constants] = reference ? reference_key(plan, k, target, reference->is_quadrature)
                                                    : shade_key(plan, tables, k, target);
-        const EnvironmentMaps* map_set = maps[plan.classes[k].traits.map_set].get();
+        const EnvironmentMaps* map_set = maps[plan.classes[k].map_set].get();
         classes_.push_back(make_stage(pipelines, shader, constants, k, map_set, reference));
         classes_.back().name = message(reference ? "reference " : "shade ", k);
     }

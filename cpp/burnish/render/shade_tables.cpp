@@ -28,15 +28,15 @@ shared::LobeRecord lobe_record(const KurtLobe& lobe) {
     return record;
 }
 
-bool is_coat(uint32_t which, const ShadeTraits& traits) {
-    return traits.has_coat && which + 1 == traits.lobe_count;
+bool is_coat(uint32_t which, const ShadeClass& one) {
+    return one.variant[shared::SPEC_HAS_COAT] && which + 1 == one.variant[shared::SPEC_LOBE_COUNT];
 }
 
 /// The coat's weight is read from its texture, so the record holds the lobe of weight one.
-KurtLobe lobe_of(const Material& material, uint32_t which, const ShadeTraits& traits) {
+KurtLobe lobe_of(const Material& material, uint32_t which, const ShadeClass& one) {
     KurtLobe lobe =
         which < material.lobes.size() ? material.lobes[which] : KurtLobe{.weight = glm::vec3(0.0f)};
-    if (is_coat(which, traits)) lobe.weight = glm::vec3(1.0f);
+    if (is_coat(which, one)) lobe.weight = glm::vec3(1.0f);
     return lobe;
 }
 
@@ -44,12 +44,12 @@ KurtLobe lobe_of(const Material& material, uint32_t which, const ShadeTraits& tr
 std::vector<uint32_t> unrolled_counts(const Scene& scene, const Plan& plan, TableWriter& writer) {
     std::vector<uint32_t> counts(plan.classes.size(), 0);
     for (const MaterialInstance& instance : plan.instances) {
-        const ShadeTraits& traits = plan.classes[instance.shade_class].traits;
-        if (!unrolls_samples(plan, traits)) continue;
-        for (uint32_t which = 0; which < traits.lobe_count; ++which) {
-            const KurtLobe lobe = lobe_of(scene.materials[instance.material], which, traits);
-            const SampleTable& table = writer.table(traits.table, lobe.roughness,
-                                                    plan.environments[instance.environment]->face_size());
+        const ShadeClass& one = plan.classes[instance.shade_class];
+        if (!unrolls_samples(plan, one)) continue;
+        for (uint32_t which = 0; which < one.variant[shared::SPEC_LOBE_COUNT]; ++which) {
+            const KurtLobe lobe = lobe_of(scene.materials[instance.material], which, one);
+            const SampleTable& table =
+                writer.table(one.table, lobe.roughness, plan.environments[instance.environment]->face_size());
             uint32_t& count = counts[instance.shade_class];
             count = std::max(count, uint32_t(table.entries.size()));
         }
@@ -59,7 +59,7 @@ std::vector<uint32_t> unrolled_counts(const Scene& scene, const Plan& plan, Tabl
     if (plan.settings.sample_source == SampleSource::buffer ||
         plan.settings.sample_source == SampleSource::meanwhile)
         for (size_t k = 0; k < counts.size(); ++k)
-            if (plan.classes[k].traits.lobe_count == 1) counts[k] = whole_phases(counts[k]);
+            if (plan.classes[k].variant[shared::SPEC_LOBE_COUNT] == 1) counts[k] = whole_phases(counts[k]);
     return counts;
 }
 
@@ -128,19 +128,19 @@ ShadeTables make_shade_tables(const vulkan::DevicePointer& device, const Scene& 
     const std::vector<uint32_t> class_counts = unrolled_counts(scene, plan, writer);
     for (const MaterialInstance& instance : plan.instances) {
         const Material& material = scene.materials[instance.material];
-        const ShadeTraits& traits = plan.classes[instance.shade_class].traits;
+        const ShadeClass& one = plan.classes[instance.shade_class];
         const uint32_t face_size = plan.environments[instance.environment]->face_size();
         materials.push_back({glm::vec4(material.diffuse, 0.0f),
                              glm::vec4(material.emissive, std::ldexp(1.0f, emissive_exponent(material))),
-                             uint32_t(lobes.size()), traits.lobe_count, instance.environment,
-                             instance.shade_class});
-        for (uint32_t which = 0; which < traits.lobe_count; ++which) {
-            const KurtLobe lobe = lobe_of(material, which, traits);
+                             uint32_t(lobes.size()), one.variant[shared::SPEC_LOBE_COUNT],
+                             instance.environment, instance.shade_class});
+        for (uint32_t which = 0; which < one.variant[shared::SPEC_LOBE_COUNT]; ++which) {
+            const KurtLobe lobe = lobe_of(material, which, one);
             shared::LobeRecord record = lobe_record(lobe);
             if (plan.sampler.placing == Placing::mixtures) {
-                if (traits.table == TableForm::matched_by_view) {
-                    const auto views =
-                        writer.view_table(plan.sampler.samples, lobe, traits.has_fresnel, face_size);
+                if (one.table == TableForm::matched_by_view) {
+                    const auto views = writer.view_table(plan.sampler.samples, lobe,
+                                                         one.variant[shared::SPEC_HAS_FRESNEL], face_size);
                     record.table_begin = views.begin;
                     record.view_columns = views.columns;
                     record.view_drift = views.drift;
@@ -150,19 +150,20 @@ ShadeTables make_shade_tables(const vulkan::DevicePointer& device, const Scene& 
                 record.table_count = plan.sampler.samples;
                 record.level_share = spherical_share(1.0, face_size);
                 counts[instance.shade_class].insert(plan.sampler.samples);
-            } else if (traits.table == TableForm::prefiltered) {
+            } else if (one.table == TableForm::prefiltered) {
                 counts[instance.shade_class].insert(1);
-            } else if (traits.table != TableForm::none) {
-                const auto samples = writer.samples(writer.table(traits.table, lobe.roughness, face_size),
+            } else if (one.table != TableForm::none) {
+                const auto samples = writer.samples(writer.table(one.table, lobe.roughness, face_size),
                                                     class_counts[instance.shade_class]);
                 record.table_begin = samples.begin;
                 record.table_count = samples.count;
                 counts[instance.shade_class].insert(samples.count);
             }
-            if (plan.sampler.needs_albedo || traits.conserves_energy) {
-                const bool is_varying_brushed = is_brushed(material) && !is_coat(which, traits);
-                const auto albedo = traits.has_varying ? writer.varying_albedo(is_varying_brushed, lobe.alpha)
-                                                       : writer.albedo(lobe.roughness, lobe.alpha);
+            if (plan.sampler.needs_albedo || one.variant[shared::SPEC_CONSERVES_ENERGY]) {
+                const bool is_varying_brushed = is_brushed(material) && !is_coat(which, one);
+                const auto albedo = one.variant[shared::SPEC_HAS_VARYING]
+                                        ? writer.varying_albedo(is_varying_brushed, lobe.alpha)
+                                        : writer.albedo(lobe.roughness, lobe.alpha);
                 record.albedo_begin = albedo.begin;
                 record.albedo_width_nodes = albedo.count;
             }
@@ -192,16 +193,17 @@ ShadeTables make_shade_tables(const vulkan::DevicePointer& device, const Scene& 
 
     tables.class_counts = class_counts;
     for (size_t k = 0; k < plan.classes.size(); ++k) {
-        const ShadeTraits& traits = plan.classes[k].traits;
+        const ShadeClass& one = plan.classes[k];
         SampleTable table;
-        if (traits.table == TableForm::constant)
-            table = build_sample_table(plan.settings.sampler, traits.roughness,
-                                       plan.map_sets[traits.map_set].face_size);
+        if (one.table == TableForm::constant)
+            table = build_sample_table(plan.settings.sampler, one.roughness,
+                                       plan.map_sets[one.map_set].face_size);
         tables.class_tables.push_back(std::move(table));
         std::string used;
         for (const uint32_t count : counts[k])
             used += message(used.empty() ? "" : " or ", count);
-        tables.samples_used.push_back(used.empty() ? "" : used + (traits.lobe_count > 1 ? " a lobe" : ""));
+        tables.samples_used.push_back(
+            used.empty() ? "" : used + (one.variant[shared::SPEC_LOBE_COUNT] > 1 ? " a lobe" : ""));
     }
     tables.materials = storage(device, materials);
     tables.material_rows = vulkan::texel_view(tables.materials, VK_FORMAT_R32G32B32A32_UINT);
@@ -213,7 +215,8 @@ ShadeTables make_shade_tables(const vulkan::DevicePointer& device, const Scene& 
     std::vector<std::shared_ptr<const IrradianceCube>> cubes;
     // Pipelines that many kinds of material share look it up where nothing is diffuse, too.
     if (plan.sampler.diffuse == DiffuseForm::cube &&
-        std::ranges::any_of(plan.classes, [](const ShadeClass& one) { return one.traits.has_diffuse; }))
+        std::ranges::any_of(plan.classes,
+                            [](const ShadeClass& one) { return one.variant[shared::SPEC_HAS_DIFFUSE]; }))
         for (const DiffuseLight& light : lights)
             cubes.push_back(light.cube);
     tables.irradiance = diffuse.buffer(device, std::move(cubes));

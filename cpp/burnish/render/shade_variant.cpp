@@ -2,22 +2,11 @@
 
 #include <bit>
 
+#include "burnish/plan/effects.h"
 #include "shared/constants.h"
 
 namespace burnish::render {
 namespace {
-
-uint32_t form_of(AlphaForm form) {
-    switch (form) {
-    case AlphaForm::zero:
-        return shared::ALPHA_ZERO;
-    case AlphaForm::half:
-        return shared::ALPHA_HALF;
-    case AlphaForm::general:
-        return shared::ALPHA_GENERAL;
-    }
-    return shared::ALPHA_GENERAL;
-}
 
 uint32_t code_of(MapLookup lookup) {
     switch (lookup) {
@@ -69,46 +58,38 @@ const char* shader_of(TableForm form) {
 }
 
 /// What kernels of the plan's samplers and of the reference share.
-vulkan::SpecializationConstants common_constants(const Plan& plan, uint32_t shade_class, ShadeTarget target) {
-    const ShadeTraits& traits = plan.classes[shade_class].traits;
+vulkan::SpecializationConstants common_constants(const Plan& plan, uint32_t shade_class, ShadeTarget target,
+                                                 bool is_reference) {
+    const ShadeClass& one = plan.classes[shade_class];
     vulkan::SpecializationConstants constants;
     constants.set(shared::SPEC_SOURCE, target.is_points ? shared::SOURCE_POINTS : shared::SOURCE_PIXELS)
         .set(shared::SPEC_IS_DISPLAY, target.is_display)
         .set(shared::SPEC_COUNTS_NON_FINITE, target.counts_non_finite)
-        .set(shared::SPEC_LOBE_COUNT, traits.lobe_count)
-        .set(shared::SPEC_CONSERVES_ENERGY, traits.conserves_energy)
-        .set(shared::SPEC_HAS_TANGENT, traits.has_tangent)
-        .set(shared::SPEC_HAS_DIFFUSE, traits.has_diffuse)
-        .set(shared::SPEC_HAS_EMISSIVE, traits.has_emissive)
-        .set(shared::SPEC_HAS_VARYING, traits.has_varying)
-        .set(shared::SPEC_HAS_COAT, traits.has_coat)
-        .set(shared::SPEC_HAS_COAT_NORMAL, traits.has_coat_normal)
-        .set(shared::SPEC_HAS_MAP_ROTATION, traits.has_map_rotation)
         .set(shared::SPEC_SHADE_CLASS, shade_class);
-    add_lookup_constants(constants, plan.map_sets[traits.map_set]);
+    for (const Effect& effect : effects())
+        if (effect.is_of_reference || !is_reference)
+            constants.set(effect.constant, one.variant[effect.constant]);
+    add_lookup_constants(constants, plan.map_sets[one.map_set]);
     return constants;
 }
 
 /// `table`: of constant form; `buffer_count`: samples of each lobe in buffer or scaled form, 0 for a loop.
-void add_pattern_constants(vulkan::SpecializationConstants& constants, const ShadeTraits& traits,
+void add_pattern_constants(vulkan::SpecializationConstants& constants, const ShadeClass& one,
                            const Plan& plan, const SampleTable& table, uint32_t buffer_count) {
     const SamplerFacts& sampler = plan.sampler;
-    const bool is_scaled = traits.table == TableForm::scaled;
-    constants.set(shared::SPEC_HAS_FRESNEL, traits.has_fresnel)
-        .set(shared::SPEC_ALPHA, form_of(traits.alpha))
-        .set(shared::SPEC_TABLE, table_of(traits.table, sampler))
+    const bool is_scaled = one.table == TableForm::scaled;
+    constants.set(shared::SPEC_TABLE, table_of(one.table, sampler))
         .set(shared::SPEC_FOOTPRINT, sampler.footprint)
-        .set(shared::SPEC_SUN_COUNT, traits.sun_count)
         .set(shared::SPEC_WITHOUT_LOOKUPS, !plan.settings.has_lookups)
         .set(shared::SPEC_NORMALIZATION, is_scaled ? sampler.scaled_normalization : sampler.normalization);
     if (sampler.placing == Placing::mixtures)
         constants.set(shared::SPEC_SAMPLE_COUNT, sampler.samples)
-            .set(shared::SPEC_WIDE_COMPONENTS, traits.has_wide_components);
-    if (traits.table == TableForm::buffer || traits.table == TableForm::scaled) {
+            .set(shared::SPEC_WIDE_COMPONENTS, one.has_wide_components);
+    if (one.table == TableForm::buffer || one.table == TableForm::scaled) {
         constants.set(shared::SPEC_SAMPLE_COUNT, buffer_count);
         if (plan.settings.sample_source == SampleSource::one_by_one) constants.set(shared::SPEC_PHASE, 1u);
     }
-    if (traits.table != TableForm::constant) return;
+    if (one.table != TableForm::constant) return;
     constants.set(shared::SPEC_SAMPLE_COUNT, uint32_t(table.entries.size()));
     for (uint32_t k = 0; k < table.entries.size(); ++k)
         for (uint32_t c = 0; c < 4; ++c)
@@ -118,9 +99,9 @@ void add_pattern_constants(vulkan::SpecializationConstants& constants, const Sha
 } // namespace
 
 ComputeKey shade_key(const Plan& plan, const ShadeTables& tables, uint32_t shade_class, ShadeTarget target) {
-    const ShadeTraits& traits = plan.classes[shade_class].traits;
-    vulkan::SpecializationConstants constants = common_constants(plan, shade_class, target);
-    add_pattern_constants(constants, traits, plan, tables.class_tables[shade_class],
+    const ShadeClass& one = plan.classes[shade_class];
+    vulkan::SpecializationConstants constants = common_constants(plan, shade_class, target, false);
+    add_pattern_constants(constants, one, plan, tables.class_tables[shade_class],
                           tables.class_counts[shade_class]);
     constants
         .set(shared::SPEC_SAMPLE_TABLE_IS_STORED,
@@ -128,11 +109,11 @@ ComputeKey shade_key(const Plan& plan, const ShadeTables& tables, uint32_t shade
         .set(shared::SPEC_HAS_HARMONICS, plan.sampler.diffuse == DiffuseForm::harmonics)
         .set(shared::SPEC_IRRADIANCE_IS_STORED,
              tables.irradiance->elements.access() == vulkan::ElementAccess::storage);
-    return {shader_of(traits.table), constants};
+    return {shader_of(one.table), constants};
 }
 
 ComputeKey reference_key(const Plan& plan, uint32_t shade_class, ShadeTarget target, bool is_quadrature) {
-    vulkan::SpecializationConstants constants = common_constants(plan, shade_class, target);
+    vulkan::SpecializationConstants constants = common_constants(plan, shade_class, target, true);
     constants.set(shared::SPEC_IS_QUADRATURE, is_quadrature);
     return {"shade/reference.comp", constants};
 }

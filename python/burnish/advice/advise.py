@@ -179,7 +179,7 @@ def advise(
     errors = predict_errors(scene)
     advance(0.1, "prices on this device")
     costs = CostModel(device)
-    traits = [traits_of_class(one["effects"]) for one in rendering.plan(scene, _core.Matched())["classes"]]
+    traits = [traits_of_class(one["values"]) for one in rendering.plan(scene, _core.Matched())["classes"]]
     guess = price_candidates(errors, equal_shares(costs, traits, size[0] * size[1]))
     favourite = find_cheapest(guess, target_error).chosen
     small = Probe(scene, camera, size, filter, device)

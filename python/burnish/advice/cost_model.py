@@ -7,7 +7,7 @@ and kept in the user's cache folder, in one file for each device, driver and ver
 import hashlib
 import json
 import statistics
-from collections.abc import Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass
 from datetime import datetime, timezone
 from pathlib import Path
@@ -25,6 +25,8 @@ SIZE = (96, 256)
 
 RUNS = 3
 SHADE_PREFIX = "shade"
+ALPHA_OF_FORM = (0.0, 0.5, 0.3)
+"""Grazing exponents that stand for the forms of a pipeline: none, a square root, a power."""
 FIXED = "fixed"
 
 
@@ -56,17 +58,16 @@ class Traits:
         return ", ".join([*words, f"alpha {self.alpha:g}"])
 
 
-def traits_of_class(effects: Sequence[str]) -> Traits:
-    """Read the traits of a shade pipeline from the effects that a report or a plan lists.
+def traits_of_class(values: Mapping[str, int]) -> Traits:
+    """Read the traits of a shade pipeline from the values of effects that a report or a plan gives.
 
     Parameters
     ----------
-    effects : sequence of str
-        Such as ``["1 lobe", "fresnel", "alpha .5", "anisotropy"]``.
+    values : dict
+        By effect, such as ``{"lobe": 1, "fresnel": 1, "alpha": 1, "anisotropy": 0}``.
     """
-    counts = [int(name.split()[0]) for name in effects if name.endswith((" lobe", " lobes"))]
-    alpha = 0.5 if "alpha .5" in effects else 0.3 if "alpha" in effects else 0.0
-    return Traits(sum(counts), "fresnel" in effects, alpha, "anisotropy" in effects)
+    alpha = ALPHA_OF_FORM[values["alpha"]]
+    return Traits(values["lobe"], bool(values["fresnel"]), alpha, bool(values["anisotropy"]))
 
 
 def cache_path(device: _core.Device) -> Path | None:

@@ -75,7 +75,7 @@ def learn_frame_cost(
     times = {one["name"]: one["milliseconds"] for one in report.passes}
     shares = []
     for k, one in enumerate(report.classes):
-        traits = traits_of_class(one["effects"])
+        traits = traits_of_class(one["values"])
         rate = costs.shade_ns(family, count, traits)
         shares.append((traits, times.get(f"{SHADE_PREFIX} {k}", 0.0) / rate if rate > 0 else 0.0))
     total = sum(share for _, share in shares)

@@ -1,7 +1,5 @@
 """The device under test, and what cases share: maps, what the device made of them, the float64 twin."""
 
-import re
-import warnings
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -73,12 +71,9 @@ class Bench:
     ) -> Float32:
         """Shade points on the device, lobes alone."""
         environment = self.light(light) if isinstance(light, str) else light
-        with warnings.catch_warnings(record=True) as caught:
-            warnings.simplefilter("always")
-            radiance = shade(environment, _core.Material(lobes=lobes), sampler, *points, device=self.device)
-        for warning in caught:
-            count = re.search(r"(\d+) values.* not finite", str(warning.message))
-            self.stopped += int(count[1]) if count else 0
+        material = _core.Material(lobes=lobes)
+        radiance, report = shade(environment, material, sampler, *points, device=self.device, report=True)
+        self.stopped += report.non_finite
         return radiance
 
     def twin(self, light: str, lobes: list[_core.KurtLobe], sampler: Sampler, points: Points) -> Array:

@@ -13,7 +13,6 @@ from burnish import _core
 from burnish._device import default_device
 from burnish.frame import FloatArray
 from burnish.rendering import Filter, draw, shade
-from burnish.samplers import sampler_to_text
 from burnish.study import identity
 from burnish.study.timing import frame_times
 
@@ -226,14 +225,13 @@ class PointsSubject:
 
     def __init__(self, points: Points, filter: Filter = "gauss6", device: _core.Device | None = None) -> None:
         self._points, self._filter = points, filter
-        self._counts: dict[str, str] = {}
         self._device = _device_that_waits(device)
 
     def draw(self, sampler: Sampler, progress: Progress | None = None) -> Shot:
         """Shade all points once; nothing is heard of it until it is done."""
         points = self._points
         began = time.perf_counter()
-        color = shade(
+        color, report = shade(
             points.environment,
             points.material,
             sampler,
@@ -242,20 +240,11 @@ class PointsSubject:
             points.views,
             self._filter,
             self._device,
+            report=True,
         )
         wall_ms = 1e3 * (time.perf_counter() - began)
         times = {"frame_ms": wall_ms, "shade_ms": wall_ms, "wall_ms": wall_ms}
-        return Shot(color, np.ones(len(color), bool), times, samples_used=self._count(sampler))
-
-    def _count(self, sampler: Sampler) -> str:
-        """Render the material on a few pixels and read the report: shaded points come without one."""
-        text = sampler_to_text(sampler)
-        if text not in self._counts:
-            scene = _core.Scene.sphere(self._points.material)
-            scene.environment = self._points.environment
-            frame = draw(scene, size=(8, 8), sampler=sampler, device=self._device, filter=self._filter)
-            self._counts[text] = frame.report.samples_used
-        return self._counts[text]
+        return Shot(color, np.ones(len(color), bool), times, samples_used=report.samples_used)
 
     def device_names(self) -> dict[str, Any]:
         """Give ``device``, ``driver``, ``is_software`` and ``lookup``."""

@@ -247,3 +247,26 @@ def test_both_placements_of_brushed_samples_agree(device, spots64):
     difference = np.sqrt(np.mean((colors[0] - colors[1]) ** 2)) / np.sqrt(np.mean(colors[1] ** 2))
     # By view they lie over what is reflected of the lobe, at a point over the lobe: both err more than this.
     assert 1e-4 < difference < 0.04
+
+
+def test_points_get_a_report_as_pictures_do(device):
+    lobe = burnish.KurtLobe((0.3, 0.1), r0=0.5, alpha=0.5)
+    up, right = (np.tile(np.float32(axis), (5, 1)) for axis in ((0, 0, 1), (1, 0, 0)))
+    light = burnish.environments.uniform(face_size=4)
+    points = (light, burnish.Material(lobes=[lobe], emissive=1.0), burnish.Regular(14), up, right, up)
+    radiance, report = burnish.shade(*points, device=device, report=True)
+    np.testing.assert_array_equal(radiance, burnish.shade(*points, device=device))
+    values = report.classes[0]["values"]
+    assert (values["lobe"], values["fresnel"], values["alpha"], values["emissive"]) == (1, 1, 1, 1)
+    assert values["diffuse"] == values["sun split"] == 0
+    assert report.points == 5 and str(report).startswith("5 points, regular:14")
+    assert report.samples_used and any(one["name"] == "shade 0" for one in report.passes)
+
+
+def test_points_that_are_none_get_a_report(device):
+    none = np.zeros((0, 3), np.float32)
+    light = burnish.environments.uniform(face_size=4)
+    radiance, report = burnish.shade(
+        light, burnish.Material(), burnish.Regular(), none, none, none, device=device, report=True
+    )
+    assert radiance.shape == (0, 3) and report.passes == []

@@ -90,10 +90,12 @@ def test_rates_are_straight_lines():
 
 
 def test_traits_are_read_from_a_report():
-    brushed = traits_of_class(["2 lobes", "fresnel", "alpha .5", "anisotropy", "diffuse"])
+    brushed = traits_of_class({"lobe": 2, "fresnel": 1, "alpha": 1, "anisotropy": 1, "diffuse": 1})
     assert brushed == Traits(2, True, 0.5, True)
-    assert traits_of_class(["diffuse"]) == Traits(0, False, 0.0, False)
-    assert traits_of_class(["1 lobe", "alpha"]).alpha not in (0.0, 0.5)
+    assert traits_of_class({"lobe": 0, "fresnel": 0, "alpha": 0, "anisotropy": 0}) == Traits(
+        0, False, 0.0, False
+    )
+    assert traits_of_class({"lobe": 1, "fresnel": 0, "alpha": 2, "anisotropy": 0}).alpha not in (0.0, 0.5)
 
 
 def test_rates_are_measured_once_and_kept(tmp_path, monkeypatch):

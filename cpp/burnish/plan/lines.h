@@ -1,0 +1,19 @@
+// Sentences about a plan: what is on and off and why, which passes run.
+#pragma once
+
+#include <string>
+
+#include "burnish/plan/plan.h"
+
+namespace burnish {
+
+/// How the sampler sees the light on diffuse surfaces.
+const char* describe_diffuse(const SamplerFacts& sampler);
+/// "2 of 5 materials, regular:14 from constants, ...": why this pipeline exists.
+std::string describe(const ShadeClass& one, const Scene& scene, const Plan& plan, size_t constant_count);
+void add_effect_lines(const Scene& scene, Plan& plan);
+void add_pass_lines(Plan& plan);
+/// Says where brushed surfaces have no direction of their own.
+void warn_of_missing_tangents(const Scene& scene, Plan& plan);
+
+} // namespace burnish

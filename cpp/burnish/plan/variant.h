@@ -1,0 +1,21 @@
+// Values of the effects' specialization constants: two materials of equal ones may share a pipeline.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+namespace burnish {
+
+class Variant {
+public:
+    /// Of a constant SPEC_... of an effect; 0 of others.
+    uint32_t operator[](uint32_t constant) const { return values_.at(constant); }
+    uint32_t& operator[](uint32_t constant) { return values_.at(constant); }
+
+    bool operator==(const Variant&) const = default;
+
+private:
+    std::array<uint32_t, 32> values_{};
+};
+
+} // namespace burnish
