@@ -1,6 +1,7 @@
 #include "burnish/render/environment_maps.h"
 
 #include "burnish/error.h"
+#include "burnish/render/frame.h"
 #include "burnish/render/stopwatch.h"
 #include "burnish/render/texel_pairs.h"
 #include "burnish/vulkan/transfer.h"
@@ -81,44 +82,60 @@ void MapTools::free() {
     prefilter_.reset();
 }
 
-EnvironmentMaps::EnvironmentMaps(MapTools& tools, EnvironmentSpan environments, const MapSettings& wanted) {
-    const std::shared_ptr<const vulkan::Device>& device = tools.device();
-    const uint32_t face_size = common_face_size(environments, device->limits().maxImageArrayLayers);
+EnvironmentMaps::EnvironmentMaps(MapTools& tools, EnvironmentSpan environments, const MapSettings& wanted)
+    : settings_(wanted) {
+    const uint32_t face_size = common_face_size(environments, tools.device()->limits().maxImageArrayLayers);
     if (wanted.kernel && !wanted.filter)
         throw std::invalid_argument("filter: expected one, from whose pyramid to prefilter, got none");
     tools.free_surplus();
-    const auto cube_count = static_cast<uint32_t>(environments.size());
-    for (const auto& environment : environments)
-        half_exponents_.push_back(environment->half_range().exponent);
     vulkan::ImageSettings settings;
     settings.format = VK_FORMAT_R16G16B16A16_SFLOAT;
     settings.width = settings.height = face_size;
     settings.levels = wanted.filter ? vulkan::full_levels(face_size, face_size) : 1;
-    settings.layers = 6 * cube_count;
+    settings.layers = 6 * uint32_t(environments.size());
     settings.is_cube = true;
     room_ = tools.take_room(settings, wanted.lookup);
+    half_exponents_.resize(environments.size());
+    make(tools, 0, environments);
+}
+
+void EnvironmentMaps::replace(
+    MapTools& tools, std::span<const std::pair<uint32_t, std::shared_ptr<const Environment>>> changed) {
+    std::vector<vulkan::PassTime> times;
+    for (const auto& [cube, environment] : changed) {
+        make(tools, cube, std::span(&environment, 1));
+        render::add_pass_times(times, pass_times_);
+    }
+    pass_times_ = std::move(times);
+}
+
+void EnvironmentMaps::make(MapTools& tools, uint32_t first_cube, EnvironmentSpan environments) {
+    const std::shared_ptr<const vulkan::Device>& device = tools.device();
+    const auto cube_count = static_cast<uint32_t>(environments.size());
+    for (uint32_t k = 0; k < cube_count; ++k)
+        half_exponents_[first_cube + k] = environments[k]->half_range().exponent;
     vulkan::Image& image = room_.image;
 
     const render::Stopwatch upload_watch;
-    const bool is_staged = wanted.filter && tools.pyramid().stage(image, environments, *wanted.filter);
-    for (uint32_t cube = 0; cube < cube_count && !is_staged; ++cube) {
+    const bool is_staged =
+        settings_.filter && tools.pyramid().stage(image, first_cube, environments, *settings_.filter);
+    for (uint32_t k = 0; k < cube_count && !is_staged; ++k) {
         vulkan::ImageRegion faces;
-        faces.base_layer = 6 * cube;
+        faces.base_layer = 6 * (first_cube + k);
         faces.layer_count = 6;
-        vulkan::upload(image, faces,
-                       std::as_bytes(std::span<const uint16_t>(environments[cube]->half_rgba())));
+        vulkan::upload(image, faces, std::as_bytes(std::span<const uint16_t>(environments[k]->half_rgba())));
     }
     pass_times_ = {{"upload", upload_watch.milliseconds()}};
 
-    const bool is_packed = wanted.lookup != MapLookup::sampler;
+    const bool is_packed = settings_.lookup != MapLookup::sampler;
     // From where they were made, or else from the image.
     const auto pack = [&](const std::vector<LevelTexels>& levels, uint32_t first_level) {
         if (!is_packed) return;
         const render::Stopwatch watch;
         if (levels.empty())
-            pack_pairs(image, first_level, room_.pairs);
+            pack_pairs(image, first_level, first_cube, cube_count, room_.pairs);
         else
-            pack_pairs(levels, face_size, cube_count, room_.pairs);
+            pack_pairs(levels, face_size(), first_cube, cube_count, room_.pairs);
         pass_times_.push_back({"pack", watch.milliseconds()});
     };
     const auto submit = [&](vulkan::Commands& commands) {
@@ -126,21 +143,22 @@ EnvironmentMaps::EnvironmentMaps(MapTools& tools, EnvironmentSpan environments, 
         pass_times_.insert(pass_times_.end(), commands.pass_times().begin(), commands.pass_times().end());
     };
     vulkan::Commands commands(device);
-    if (wanted.filter) {
+    if (settings_.filter) {
         commands.begin_pass("pyramid");
-        tools.pyramid().record(commands, image, 0, cube_count, *wanted.filter,
+        tools.pyramid().record(commands, image, first_cube, cube_count, *settings_.filter,
                                is_staged ? Pyramid::Finest::staged : Pyramid::Finest::in_image);
         commands.end_pass();
     } else {
         commands.transition(image, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
     }
     submit(commands);
-    pack(wanted.filter ? tools.pyramid().levels_on_host() : std::vector<LevelTexels>(), 0);
-    if (!wanted.kernel) return;
+    pack(settings_.filter ? tools.pyramid().levels_on_host() : std::vector<LevelTexels>(), 0);
+    if (!settings_.kernel) return;
 
     vulkan::Commands after(device);
     after.begin_pass("prefilter");
-    tools.prefilter().record(after, image, wanted.lookup, room_.pairs, *wanted.kernel, *wanted.filter);
+    tools.prefilter().record(after, image, first_cube, cube_count, settings_.lookup, room_.pairs,
+                             *settings_.kernel, *settings_.filter);
     after.end_pass();
     submit(after);
     // Level 0 is not filtered; the tool has room for one cube.

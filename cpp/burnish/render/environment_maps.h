@@ -9,6 +9,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace burnish {
@@ -65,6 +66,11 @@ public:
     EnvironmentMaps(MapTools& tools, std::span<const std::shared_ptr<const Environment>> environments,
                     const MapSettings& settings);
 
+    /// Puts other environments of the same face size in the place of some and makes their levels alone; what
+    /// was read before must be done. Of each, the place and what comes there.
+    void replace(MapTools& tools,
+                 std::span<const std::pair<uint32_t, std::shared_ptr<const Environment>>> changed);
+
     /// The packed maps; a single pair where they were not packed.
     const vulkan::ElementBuffer& pairs() const { return room_.pairs; }
 
@@ -74,8 +80,8 @@ public:
     uint32_t count() const { return image().settings().layers / 6; }
     uint32_t level_count() const { return image().settings().levels; }
     uint64_t memory_bytes() const { return room_.memory_bytes(); }
-    /// "upload" and "pack", as the host sees them, "pyramid" and "prefilter", as the device does, where they
-    /// were made.
+    /// Of what was made last: "upload" and "pack", as the host sees them, "pyramid" and "prefilter", as the
+    /// device does.
     const std::vector<vulkan::PassTime>& pass_times() const { return pass_times_; }
 
     /// One cube's levels as lookups see them, finest first: 6 n n 3 floats each (face, row, column, channel).
@@ -85,6 +91,11 @@ public:
     MapRoom release_room() && { return std::move(room_); }
 
 private:
+    /// Uploads cubes from `first_cube` on and makes their levels.
+    void make(MapTools& tools, uint32_t first_cube,
+              std::span<const std::shared_ptr<const Environment>> environments);
+
+    MapSettings settings_;
     MapRoom room_;
     std::vector<int> half_exponents_; // by cube
     std::vector<vulkan::PassTime> pass_times_;

@@ -56,15 +56,16 @@ const Prefilter::Scratch& Prefilter::scratch(const Key& key) {
     return scratches_.emplace(key, std::move(scratch)).first->second;
 }
 
-void Prefilter::record(vulkan::Commands& commands, vulkan::Image& cubes, MapLookup lookup,
-                       const vulkan::ElementBuffer& pairs, PrefilterKernel kernel, PyramidFilter filter) {
+void Prefilter::record(vulkan::Commands& commands, vulkan::Image& cubes, uint32_t first_cube,
+                       uint32_t cube_count, MapLookup lookup, const vulkan::ElementBuffer& pairs,
+                       PrefilterKernel kernel, PyramidFilter filter) {
     const vulkan::ImageSettings& settings = cubes.settings();
     last_ = nullptr;
     const vulkan::ComputePipeline& used = pipeline(kernel, settings.width, lookup);
-    for (uint32_t cube = 0; cube < settings.layers / 6 && settings.levels > 1; ++cube) {
+    for (uint32_t cube = first_cube; cube < first_cube + cube_count && settings.levels > 1; ++cube) {
         const Scratch& room = scratch({settings.width, kernel, filter});
         last_ = &room;
-        if (cube == 0) {
+        if (cube == first_cube) {
             set_ = vulkan::DescriptorSet(used);
             set_.bind(shared::BINDING_MAPS, cubes.view_as(VK_IMAGE_VIEW_TYPE_CUBE_ARRAY), sampler_)
                 .bind_texel_buffer(shared::BINDING_PREFILTER_SAMPLES, room.samples_view)

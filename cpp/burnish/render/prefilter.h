@@ -25,12 +25,13 @@ public:
     explicit Prefilter(std::shared_ptr<const vulkan::Device> device);
 
     /// Records the work, between begin_pass and end_pass of the caller if it is to be timed. `cubes` is a
-    /// cube array of RGBA16F that holds a pyramid made by `filter`, in SHADER_READ_ONLY_OPTIMAL; its levels
-    /// from 1 on become the prefiltered ones. This object must live, and record nothing else, until the
-    /// commands are done. The pyramid is read by `lookup`; `pairs`: the pyramid packed, or any where the
-    /// device's sampler reads it.
-    void record(vulkan::Commands& commands, vulkan::Image& cubes, MapLookup lookup,
-                const vulkan::ElementBuffer& pairs, PrefilterKernel kernel, PyramidFilter filter);
+    /// cube array of RGBA16F that holds a pyramid made by `filter`, in SHADER_READ_ONLY_OPTIMAL; levels from
+    /// 1 on of `cube_count` cubes from `first_cube` on become the prefiltered ones. This object must live,
+    /// and record nothing else, until the commands are done. The pyramid is read by `lookup`; `pairs`: the
+    /// pyramid packed, or any where the device's sampler reads it.
+    void record(vulkan::Commands& commands, vulkan::Image& cubes, uint32_t first_cube, uint32_t cube_count,
+                MapLookup lookup, const vulkan::ElementBuffer& pairs, PrefilterKernel kernel,
+                PyramidFilter filter);
 
     /// The levels from 1 on of the cube recorded last, once that is done and until the next call. Empty where
     /// the host does not read the device's memory as fast as its own.

@@ -165,16 +165,16 @@ uint32_t Pyramid::batch_size(uint32_t face_size, uint32_t cube_count) const {
     return batch;
 }
 
-bool Pyramid::stage(vulkan::Image& cubes, std::span<const std::shared_ptr<const Environment>> environments,
-                    PyramidFilter filter) {
+bool Pyramid::stage(vulkan::Image& cubes, uint32_t first_cube,
+                    std::span<const std::shared_ptr<const Environment>> environments, PyramidFilter filter) {
     const auto cube_count = static_cast<uint32_t>(environments.size());
-    require_cubes(cubes, 0, cube_count);
+    require_cubes(cubes, first_cube, cube_count);
     const uint32_t size = cubes.settings().width;
     if (size == 1 || batch_size(size, cube_count) != cube_count) return false;
     const Scratch& room = scratch(size, cube_count, filter);
     if (!room.pairs.buffer().is_mapped()) return false;
 
-    const VkBufferImageCopy finest = level_copy(0, size, 0, 0, cube_count);
+    const VkBufferImageCopy finest = level_copy(0, size, 0, first_cube, cube_count);
     const auto half = room.pairs.buffer().mapped<uint16_t>();
     for_each_on_cores(size_t{6} * cube_count * size, size >= LEAST_THREADED_SIZE, [&](size_t row) {
         const uint64_t pair = row / size * face_pairs(size) + row % size * row_pairs(size);

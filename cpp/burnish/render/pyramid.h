@@ -46,10 +46,11 @@ public:
                 PyramidFilter filter, Finest finest = Finest::in_image);
 
     /// Where the host sees the device's memory and all cubes of such an image can be done at once: writes
-    /// level 0 of the environments, a cube each, into the buffer and from there into the image, so that
-    /// `record` need not copy it back. Submits and waits. False where that cannot be: upload the image then.
-    bool stage(vulkan::Image& cubes, std::span<const std::shared_ptr<const Environment>> environments,
-               PyramidFilter filter);
+    /// level 0 of the environments, a cube each from `first_cube` on, into the buffer and from there into the
+    /// image, so that `record` need not copy it back. Submits and waits. False where that cannot be: upload
+    /// the image then.
+    bool stage(vulkan::Image& cubes, uint32_t first_cube,
+               std::span<const std::shared_ptr<const Environment>> environments, PyramidFilter filter);
     /// All levels of the cubes recorded last, once that is done and until the next call. Empty where they
     /// were not done at once, or where the host does not read the device's memory as fast as its own.
     std::vector<LevelTexels> levels_on_host() const;

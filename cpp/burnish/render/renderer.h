@@ -108,10 +108,20 @@ public:
     double time_blits(const std::shared_ptr<const Environment>& environment);
 
 private:
+    struct WantedMaps {
+        std::vector<std::shared_ptr<const Environment>> environments;
+        MapSettings settings;
+    };
+    using ChangedPlaces = std::vector<std::pair<uint32_t, std::shared_ptr<const Environment>>>;
     struct CachedMaps {
         std::vector<std::weak_ptr<const Environment>> environments;
         MapSettings settings;
         std::shared_ptr<EnvironmentMaps> maps;
+
+        bool is_expired() const;
+        /// Where they have to be made anew to be those that are wanted. None where that cannot be: others are
+        /// as many, as large and made alike, and nothing wants those any more that would be lost.
+        std::optional<ChangedPlaces> changed_places(const WantedMaps& wanted) const;
     };
 
     struct CachedScene {

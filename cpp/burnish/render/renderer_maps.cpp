@@ -31,41 +31,78 @@ std::optional<PrefilterKernel> kernel_of(MapLevels levels) {
 
 } // namespace
 
+bool Renderer::CachedMaps::is_expired() const {
+    return std::ranges::any_of(environments, [](const auto& one) { return one.expired(); });
+}
+
+std::optional<Renderer::ChangedPlaces> Renderer::CachedMaps::changed_places(const WantedMaps& wanted) const {
+    const bool is_alike = !wanted.settings.filter || settings == wanted.settings;
+    if (!is_alike || environments.size() != wanted.environments.size() ||
+        maps->face_size() != wanted.environments.front()->face_size())
+        return std::nullopt;
+    ChangedPlaces places;
+    for (uint32_t k = 0; k < environments.size(); ++k) {
+        if (environments[k].lock() == wanted.environments[k]) continue;
+        if (!environments[k].expired()) return std::nullopt;
+        places.emplace_back(k, wanted.environments[k]);
+    }
+    // Nothing would be kept: they are as well made together.
+    if (places.size() == environments.size()) return std::nullopt;
+    return places;
+}
+
 std::vector<std::shared_ptr<EnvironmentMaps>> Renderer::prepare_maps(const Plan& plan,
                                                                      std::vector<vulkan::PassTime>& times) {
-    std::erase_if(maps_, [&](const CachedMaps& cached) {
-        const bool is_expired = std::any_of(cached.environments.begin(), cached.environments.end(),
-                                            [](const auto& one) { return one.expired(); });
-        if (is_expired && cached.maps.use_count() == 1)
-            map_tools_.keep_room(std::move(*cached.maps).release_room());
-        return is_expired;
-    });
     MapSettings wanted;
     if (plan.has_lookups && plan.sampler.levels != MapLevels::none) wanted.filter = plan.settings.filter;
     if (plan.has_lookups) wanted.kernel = kernel_of(plan.sampler.levels);
-    std::vector<std::shared_ptr<EnvironmentMaps>> result;
+    std::vector<WantedMaps> sets;
     for (const MapSet& set : plan.map_sets) {
-        std::vector<std::shared_ptr<const Environment>> environments;
-        for (const uint32_t k : set.environments)
-            environments.push_back(plan.environments[k]);
         wanted.lookup = set.lookup;
-        const auto found = std::find_if(maps_.begin(), maps_.end(), [&](const CachedMaps& cached) {
-            return (!wanted.filter || cached.settings == wanted) &&
-                   std::equal(cached.environments.begin(), cached.environments.end(), environments.begin(),
-                              environments.end(),
-                              [](const auto& one, const auto& other) { return one.lock() == other; });
-        });
-        if (found != maps_.end()) {
-            std::rotate(found, found + 1, maps_.end());
-            result.push_back(maps_.back().maps);
+        sets.push_back({{}, wanted});
+        for (const uint32_t k : set.environments)
+            sets.back().environments.push_back(plan.environments[k]);
+    }
+    std::erase_if(maps_, [&](const CachedMaps& cached) {
+        const auto takes_over = [&](const WantedMaps& one) { return cached.changed_places(one).has_value(); };
+        if (!cached.is_expired() || std::ranges::any_of(sets, takes_over)) return false;
+        if (cached.maps.use_count() == 1) map_tools_.keep_room(std::move(*cached.maps).release_room());
+        return true;
+    });
+    std::vector<std::shared_ptr<EnvironmentMaps>> result;
+    for (const WantedMaps& set : sets) {
+        // Those of which the fewest have changed.
+        auto best = maps_.end();
+        ChangedPlaces changed;
+        for (auto cached = maps_.begin(); cached != maps_.end(); ++cached) {
+            std::optional<ChangedPlaces> places = cached->changed_places(set);
+            if (!places || (best != maps_.end() && places->size() >= changed.size())) continue;
+            best = cached;
+            changed = std::move(*places);
+        }
+        const auto needing_memory = [&](const auto& work) {
+            return needing_memory_for(describe_maps(set.environments.size(), *set.environments.front()),
+                                      work);
+        };
+        if (best != maps_.end()) {
+            std::rotate(best, best + 1, maps_.end());
+            CachedMaps& cached = maps_.back();
+            if (!changed.empty()) {
+                needing_memory([&] {
+                    cached.maps->replace(map_tools_, changed);
+                    return 0;
+                });
+                add_pass_times(times, cached.maps->pass_times());
+                cached.environments.assign(set.environments.begin(), set.environments.end());
+            }
+            result.push_back(cached.maps);
             continue;
         }
         forget_old_maps();
-        const auto maps = needing_memory_for(describe_maps(environments.size(), *environments.front()), [&] {
-            return std::make_shared<EnvironmentMaps>(map_tools_, environments, wanted);
-        });
+        const auto maps = needing_memory(
+            [&] { return std::make_shared<EnvironmentMaps>(map_tools_, set.environments, set.settings); });
         add_pass_times(times, maps->pass_times());
-        maps_.push_back({{environments.begin(), environments.end()}, wanted, maps});
+        maps_.push_back({{set.environments.begin(), set.environments.end()}, set.settings, maps});
         result.push_back(maps);
     }
     return result;

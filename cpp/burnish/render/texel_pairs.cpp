@@ -97,8 +97,8 @@ void pack_level(const LevelTexels& texels, glm::uvec4* pairs) {
 
 } // namespace
 
-void pack_pairs(std::span<const LevelTexels> levels, uint32_t face_size, uint32_t cube_count,
-                const vulkan::ElementBuffer& pairs) {
+void pack_pairs(std::span<const LevelTexels> levels, uint32_t face_size, uint32_t first_cube,
+                uint32_t cube_count, const vulkan::ElementBuffer& pairs) {
     if (levels.empty()) return;
     uint64_t first = 0; // pairs of a cube before those levels
     for (uint32_t size = face_size; size > levels.front().size; size /= 2)
@@ -109,7 +109,7 @@ void pack_pairs(std::span<const LevelTexels> levels, uint32_t face_size, uint32_
     const bool is_mapped = pairs.buffer().is_mapped();
     std::vector<glm::uvec4> staged(is_mapped ? 0 : count);
     for (uint32_t cube = 0; cube < cube_count; ++cube) {
-        const uint64_t begin = cube * cube_pair_count(face_size) + first;
+        const uint64_t begin = (first_cube + cube) * cube_pair_count(face_size) + first;
         glm::uvec4* pair = is_mapped ? pairs.buffer().mapped<glm::uvec4>().data() + begin : staged.data();
         for (LevelTexels level : levels) {
             level.first += 6 * cube * level.face_pitch;
@@ -121,7 +121,8 @@ void pack_pairs(std::span<const LevelTexels> levels, uint32_t face_size, uint32_
     }
 }
 
-void pack_pairs(vulkan::Image& cubes, uint32_t first_level, const vulkan::ElementBuffer& pairs) {
+void pack_pairs(vulkan::Image& cubes, uint32_t first_level, uint32_t first_cube, uint32_t cube_count,
+                const vulkan::ElementBuffer& pairs) {
     const vulkan::ImageSettings& settings = cubes.settings();
     std::vector<VkBufferImageCopy> copies;
     uint64_t texels = 0;
@@ -129,10 +130,10 @@ void pack_pairs(vulkan::Image& cubes, uint32_t first_level, const vulkan::Elemen
         const uint32_t size = settings.width >> level;
         VkBufferImageCopy copy{};
         copy.bufferOffset = texels * TEXEL_BYTES;
-        copy.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, level, 0, settings.layers};
+        copy.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, level, 6 * first_cube, 6 * cube_count};
         copy.imageExtent = {size, size, 1};
         copies.push_back(copy);
-        texels += uint64_t(settings.layers) * size * size;
+        texels += uint64_t(6) * cube_count * size * size;
     }
     if (copies.empty()) return;
     const vulkan::Buffer room(cubes.device(), texels * TEXEL_BYTES, 0, vulkan::MemoryUse::read_back);
@@ -149,7 +150,7 @@ void pack_pairs(vulkan::Image& cubes, uint32_t first_level, const vulkan::Elemen
         levels.push_back({room.mapped<uint64_t>().data() + copy.bufferOffset / TEXEL_BYTES, size, size * size,
                           uint32_t(size)});
     }
-    pack_pairs(levels, settings.width, settings.layers / 6, pairs);
+    pack_pairs(levels, settings.width, first_cube, cube_count, pairs);
 }
 
 } // namespace burnish

@@ -22,16 +22,17 @@
 
 namespace burnish {
 
-/// Packs levels of as many cubes as `pairs` holds, which have faces of `face_size`: `levels` are the last
-/// ones, down to one texel, or level 0 alone. Values stay what they are, but the mean of three texels at a
-/// cube's corner is rounded to the nearest half.
+/// Packs levels of `cube_count` cubes, from `first_cube` of those in `pairs` on, which have faces of
+/// `face_size`: `levels` are the last ones, down to one texel, or level 0 alone. Values stay what they are,
+/// but the mean of three texels at a cube's corner is rounded to the nearest half.
 ///
 /// The host does it: our lookup is for devices that are CPUs, where the loads and stores of a kernel are
 /// loops over lanes, and took ten times as long.
-void pack_pairs(std::span<const LevelTexels> levels, uint32_t face_size, uint32_t cube_count,
-                const vulkan::ElementBuffer& pairs);
+void pack_pairs(std::span<const LevelTexels> levels, uint32_t face_size, uint32_t first_cube,
+                uint32_t cube_count, const vulkan::ElementBuffer& pairs);
 /// The same of what `cubes` holds from `first_level` on: a cube array of RGBA16F in SHADER_READ_ONLY_OPTIMAL,
 /// which it is afterwards, too. Submits and waits.
-void pack_pairs(vulkan::Image& cubes, uint32_t first_level, const vulkan::ElementBuffer& pairs);
+void pack_pairs(vulkan::Image& cubes, uint32_t first_level, uint32_t first_cube, uint32_t cube_count,
+                const vulkan::ElementBuffer& pairs);
 
 } // namespace burnish

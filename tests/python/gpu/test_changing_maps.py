@@ -62,3 +62,39 @@ def test_several_maps_after_one_another_are_those_of_a_fresh_device():
         np.testing.assert_array_equal(
             render(seed, shared), render(seed, burnish.Device(lookup="software")), err_msg=f"seed {seed}"
         )
+
+
+def scene_of_maps(maps):
+    scene = burnish.Scene.spheres([burnish.Material(lobes=[burnish.KurtLobe(0.2)])] * len(maps), columns=3)
+    for one, light in zip(scene.objects, maps, strict=True):
+        one.reflects = light
+    return scene
+
+
+@pytest.mark.parametrize("lookup", ["sampler", "software"])
+@pytest.mark.parametrize("sampler", [burnish.Matched(8), burnish.Regular(8), burnish.Prefiltered()])
+def test_one_changed_map_of_many_is_made_alone_and_shows(lookup, sampler):
+    """What the others hold stays: the picture is the one that a device makes of all maps at once."""
+    device = burnish.Device(lookup=lookup)
+    maps = [burnish.environments.spots(face_size=16, seed=seed) for seed in range(6)]
+    scene = scene_of_maps(maps)
+    burnish.render(scene, size=(40, 60), sampler=sampler, device=device)
+    for place, seed in ((2, 20), (5, 50)):
+        maps[place] = burnish.environments.spots(face_size=16, seed=seed)
+        scene.objects[place].reflects = maps[place]
+    changed = burnish.render(scene, size=(40, 60), sampler=sampler, device=device)
+    fresh = burnish.render(
+        scene_of_maps(maps), size=(40, 60), sampler=sampler, device=burnish.Device(lookup=lookup)
+    )
+    np.testing.assert_array_equal(changed.color, fresh.color)
+    assert {"upload", "pyramid"} <= {one["name"] for one in changed.report.passes}
+
+
+def test_a_map_that_is_wanted_elsewhere_is_not_overwritten(device):
+    maps = [burnish.environments.spots(face_size=16, seed=seed) for seed in range(3)]
+    scene = scene_of_maps(maps)
+    before = burnish.render(scene, size=(40, 60), device=device).color.copy()
+    scene.objects[1].reflects = burnish.environments.spots(face_size=16, seed=30)
+    assert not np.array_equal(burnish.render(scene, size=(40, 60), device=device).color, before)
+    scene.objects[1].reflects = maps[1]
+    np.testing.assert_array_equal(burnish.render(scene, size=(40, 60), device=device).color, before)
