@@ -17,8 +17,8 @@ from numpy.typing import NDArray
 
 from burnish import _core
 from burnish.advice.error_model import committed_data
-from burnish.advice.families import MATCHED_COUNTS
 from burnish.frame import Frame
+from burnish.oracle.matched_table import COUNTS
 from burnish.samplers import Sampler, sampler_parameters
 
 FloatArray = NDArray[np.float32]
@@ -48,8 +48,8 @@ def companion(sampler: object) -> _core.Regular | _core.Importance | _core.Match
     if isinstance(sampler, _core.Prefiltered):
         return _core.Matched(diffuse=sampler.diffuse)
     if isinstance(sampler, _core.Matched):
-        counts = [n for n in MATCHED_COUNTS if n <= COMPANION_SHARE * sampler.samples]
-        above = [n for n in MATCHED_COUNTS if n > sampler.samples]
+        counts = [n for n in COUNTS if n <= COMPANION_SHARE * sampler.samples]
+        above = [n for n in COUNTS if n > sampler.samples]
         return _core.Matched(counts[-1] if counts else above[0], sampler.diffuse)
     if isinstance(sampler, _core.Importance):
         return _core.Importance(_fewer(sampler.samples), sampler.points, sampler.mip_bias, sampler.diffuse)

@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass
 
-MATCHED_COUNTS = (2, 3, 4, 5, 6, 7, 8, 9, 10, 12, 14, 16, 17, 20, 24, 30, 32, 48, 64)
+from burnish.oracle.matched_table import COUNTS
 
 
 @dataclass(frozen=True)
@@ -28,7 +28,7 @@ class Family:
 
 
 FAMILIES: dict[str, Family] = {
-    "matched": Family("matched:{}", MATCHED_COUNTS, (5, 20), splits_suns=True),
+    "matched": Family("matched:{}", COUNTS, (5, 20), splits_suns=True),
     "regular": Family("regular:{}", (8, 14, 19, 30, 48, 64), (8, 30)),
     # Beyond 64 the table is read from a buffer: another line.
     "importance": Family(

@@ -1,9 +1,21 @@
 """Samplers as text, there and back."""
 
+import contextlib
+import typing
+
 import pytest
 
 import burnish
-from burnish.samplers import expand_counts, sampler_from_text, sampler_parameters, sampler_to_text
+from burnish.oracle.matched_table import COUNTS
+from burnish.samplers import (
+    FORMS,
+    Sampler,
+    expand_counts,
+    grammar,
+    sampler_from_text,
+    sampler_parameters,
+    sampler_to_text,
+)
 
 PAIRS = [
     (lambda: burnish.Regular(14), "regular:14"),
@@ -69,3 +81,17 @@ def test_counts_are_written_out():
 def test_wrong_texts_are_refused(text, message):
     with pytest.raises(ValueError, match=message):
         sampler_from_text(text)
+
+
+def test_the_engine_takes_the_counts_that_mixtures_were_fitted_for():
+    taken = []
+    for samples in range(1, 100):
+        with contextlib.suppress(ValueError):
+            burnish.Matched(samples)
+            taken.append(samples)
+    assert tuple(taken) == COUNTS
+
+
+def test_the_grammar_names_every_sampler_of_the_engine():
+    assert {form.make for form in FORMS.values()} == set(typing.get_args(Sampler))
+    assert all(name in grammar() for name in FORMS)
