@@ -1,4 +1,6 @@
-#include "burnish/render/shade_pass.h"
+#include "burnish/render/placeholders.h"
+
+#include "burnish/vulkan/commands.h"
 
 namespace burnish::render {
 namespace {

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "burnish/error.h"
+#include "burnish/render/accumulate_pass.h"
 #include "burnish/render/filter_offsets.h"
 #include "burnish/render/stopwatch.h"
 #include "burnish/render/view.h"
@@ -148,29 +149,8 @@ std::optional<Frame> Renderer::draw_once(const Scene& scene, const Camera& camer
     const SurfacePass surface(pipelines_, gpu_scene, scene, plan, camera.world_from_camera[3], targets);
     const ShadePass shade(pipelines_, plan, tables, maps, inputs, placeholders_,
                           reference ? &*reference : nullptr);
-    // Into the sum, and the last picture of display output.
-    std::array<const vulkan::ComputePipeline*, 2> accumulate = {};
-    std::array<vulkan::DescriptorSet, 2> accumulate_sets;
-    for (size_t k = 0; spp > 1 && k < (frame.has_display ? 2 : 1); ++k) {
-        vulkan::SpecializationConstants constants;
-        constants.set(shared::SPEC_IS_DISPLAY, k == 1);
-        accumulate[k] = &pipelines_.compute("resolve/accumulate.comp", constants);
-        accumulate_sets[k] = vulkan::DescriptorSet(*accumulate[k]);
-        accumulate_sets[k]
-            .bind(shared::BINDING_ACCUMULATE_SAMPLE, targets.radiance)
-            .bind(shared::BINDING_ACCUMULATE_SUM, targets.sum)
-            .bind(shared::BINDING_ACCUMULATE_DISPLAY, targets.display);
-    }
-    const auto record_accumulate = [&](vulkan::Commands& commands, uint32_t picture) {
-        const size_t k = frame.has_display && picture + 1 == spp ? 1 : 0;
-        const shared::AccumulateRecord push{uint32_t(pixels), picture == 0 ? 1u : 0u, 1.0f / float(spp),
-                                            display_scale};
-        const GroupRows rows = fold_groups((pixels + 63) / 64);
-        commands.begin_pass("accumulate");
-        commands.dispatch(*accumulate[k], accumulate_sets[k], vulkan::push_bytes(push), rows.length,
-                          rows.count);
-        commands.end_pass();
-    };
+    std::optional<AccumulatePass> accumulate;
+    if (spp > 1) accumulate.emplace(pipelines_, targets, spp, pixels, frame.has_display, display_scale);
     frame.report.compile_ms = pipelines_.take_compile_ms();
     frame.report.prepare_ms = watch.milliseconds() - frame.report.compile_ms;
 
@@ -192,13 +172,13 @@ std::optional<Frame> Renderer::draw_once(const Scene& scene, const Camera& camer
         shade.record_tiles(commands);
         if (!is_reference) shade.record_shade(commands, {});
         shade.record_background(commands);
-        if (spp > 1 && !is_reference) record_accumulate(commands, picture);
+        if (accumulate && !is_reference) accumulate->record(commands, picture);
         commands.submit();
         add_pass_times(times, commands.pass_times());
         if (is_reference) run_reference(plan, shade, *reference, pixels, settings.progress, frame.report);
-        if (spp > 1 && is_reference) {
+        if (accumulate && is_reference) {
             vulkan::Commands after(device_);
-            record_accumulate(after, picture);
+            accumulate->record(after, picture);
             after.submit();
             add_pass_times(times, after.pass_times());
         }

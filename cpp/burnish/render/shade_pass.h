@@ -8,6 +8,7 @@
 #include "burnish/plan/plan.h"
 #include "burnish/render/environment_maps.h"
 #include "burnish/render/pipelines.h"
+#include "burnish/render/placeholders.h"
 #include "burnish/render/shade_tables.h"
 #include "burnish/render/shade_variant.h"
 #include "burnish/render/surface_pass.h"
@@ -33,15 +34,6 @@ struct ReferenceBuffers {
     const vulkan::Buffer* alias =
         nullptr; ///< TexelAlias tables of all maps, one after the other; progressive only
     bool is_quadrature = false;
-};
-
-/// What lies behind bindings that a kernel declares and a plan does not use; made once for a device.
-struct Placeholders {
-    vulkan::Buffer buffer;
-    vulkan::TexelView rows;
-    vulkan::Image surface, varying;
-
-    explicit Placeholders(const vulkan::DevicePointer& device);
 };
 
 /// Groups of a dispatch in rows of equal length; a few may be left over.

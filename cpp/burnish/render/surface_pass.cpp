@@ -90,54 +90,7 @@ std::vector<VkVertexInputAttributeDescription> vertex_attributes(bool is_varying
     return attributes;
 }
 
-vulkan::Image target(const vulkan::DevicePointer& device, VkFormat format, uint32_t width, uint32_t height,
-                     VkImageUsageFlags usage) {
-    vulkan::ImageSettings settings;
-    settings.format = format;
-    settings.width = width;
-    settings.height = height;
-    settings.usage = usage;
-    return vulkan::Image(device, settings);
-}
-
-constexpr VkFormat SURFACE_FORMAT = VK_FORMAT_R32G32_UINT;
-constexpr VkFormat VARYING_FORMAT = VK_FORMAT_R16G16B16A16_SFLOAT;
-constexpr VkFormat COAT_FORMAT = VK_FORMAT_R32G32_UINT;
-constexpr VkFormat DEPTH_FORMAT = VK_FORMAT_D32_SFLOAT;
-
 } // namespace
-
-FrameTargets::FrameTargets(const vulkan::DevicePointer& device, uint32_t width_px, uint32_t height_px,
-                           bool is_varying, bool is_summed, bool is_displayed, uint32_t classes)
-    : width(width_px), height(height_px), has_varying(is_varying), has_sum(is_summed),
-      has_display(is_displayed), class_count(classes) {
-    const VkImageUsageFlags color = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_STORAGE_BIT;
-    surface = target(device, SURFACE_FORMAT, width, height, color);
-    depth = target(device, DEPTH_FORMAT, width, height, VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT);
-    const uint32_t varying_width = is_varying ? width : 1, varying_height = is_varying ? height : 1;
-    for (vulkan::Image* image : {&varying_diffuse, &varying_specular, &varying_emissive})
-        *image = target(device, VARYING_FORMAT, varying_width, varying_height, color);
-    varying_coat = target(device, COAT_FORMAT, varying_width, varying_height, color);
-    const VkDeviceSize pixels = VkDeviceSize(width) * height;
-    tile_capacity = ((width + shared::TILE_SIZE - 1) / shared::TILE_SIZE) *
-                    ((height + shared::TILE_SIZE - 1) / shared::TILE_SIZE);
-    const VkBufferUsageFlags storage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT;
-    // A CPU device shades straight into memory that the host reads.
-    const vulkan::MemoryUse use =
-        device->info().is_software ? vulkan::MemoryUse::read_back : vulkan::MemoryUse::device;
-    // One more pixel, for what is not finite (glsl/shade/guard.glsl).
-    const bool has_radiance = has_sum || !has_display;
-    radiance = vulkan::Buffer(device, (has_radiance ? pixels + 1 : 1) * sizeof(glm::vec4), storage, use);
-    display = vulkan::Buffer(device, (has_display ? pixels + 1 : 1) * sizeof(uint32_t), storage, use);
-    sum = vulkan::Buffer(device, (has_sum ? pixels : 1) * sizeof(glm::vec4), storage, use);
-    tiles = vulkan::Buffer(device, VkDeviceSize(class_count) * tile_capacity * sizeof(uint32_t), storage);
-    tile_counts = vulkan::Buffer(device, class_count * sizeof(glm::uvec4),
-                                 storage | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT);
-    counters = vulkan::Buffer(device, sizeof(shared::Counters), storage);
-    view = vulkan::Buffer(device, sizeof(shared::ViewRecord),
-                          storage | VK_BUFFER_USAGE_STORAGE_TEXEL_BUFFER_BIT);
-    view_rows = vulkan::texel_view(view, VK_FORMAT_R32G32B32A32_UINT);
-}
 
 SurfacePass::SurfacePass(Pipelines& pipelines, GpuScene& gpu_scene, const Scene& scene, const Plan& plan,
                          const glm::dvec3& eye, const FrameTargets& targets)

@@ -5,7 +5,7 @@
 #include <mutex>
 #include <vector>
 
-#include "burnish/render/surface_pass.h"
+#include "burnish/render/frame_targets.h"
 
 namespace burnish::render {
 

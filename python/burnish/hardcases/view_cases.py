@@ -103,7 +103,7 @@ def view_cases() -> list[HardCase]:
             "maths 7",
             GRAZING_BOUND,
             _at(1e-3),
-            roughness=(0.5, 0.025),
+            roughness=(0.9, 0.05),
             alpha=0.5,
         ),
         HardCase(
