@@ -19,8 +19,8 @@ std::string repr(const KurtLobe& lobe) {
                    ", conserve_energy=", lobe.conserve_energy ? "True" : "False", ")");
 }
 
-Material make_material(const Color& diffuse, std::vector<KurtLobe> lobes, const Color& emissive,
-                       std::string name, bool double_sided) {
+Material make_material(const Color& diffuse, std::vector<Lobe> lobes, const Color& emissive, std::string name,
+                       bool double_sided) {
     Material material;
     material.diffuse = vec3_of(diffuse);
     material.lobes = std::move(lobes);
@@ -140,8 +140,8 @@ Raises
 ValueError
     If a number is out of its range.)")
         .def(py::init(&make_material), py::arg("diffuse") = Color(0.0f),
-             py::arg("lobes") = std::vector<KurtLobe>{}, py::arg("emissive") = Color(0.0f),
-             py::arg("name") = "", py::arg("double_sided") = false)
+             py::arg("lobes") = std::vector<Lobe>{}, py::arg("emissive") = Color(0.0f), py::arg("name") = "",
+             py::arg("double_sided") = false)
         .def_property_readonly(
             "diffuse", [](const Material& x) { return tuple_of(x.diffuse); },
             "(float, float, float): diffuse reflectance.")

@@ -228,10 +228,11 @@ TEST_F(Gltf, ReadsMaterialsAndTheirExtensions) {
     EXPECT_EQ(material.alpha_cutoff, 0.25f);
     EXPECT_TRUE(material.double_sided);
     ASSERT_EQ(material.lobes.size(), 2u);
-    EXPECT_EQ(material.lobes[0].rotation, 1.0f);
-    EXPECT_NEAR(material.lobes[0].roughness.x, 0.25f, 1e-3f);
-    EXPECT_EQ(material.lobes[0].roughness.y, MIN_ROUGHNESS);
-    EXPECT_NEAR(material.lobes[0].r0.x * material.lobes[0].weight.x, 0.5f / 9.0f, 1e-6f);
+    EXPECT_EQ(std::get<KurtLobe>(material.lobes[0]).rotation, 1.0f);
+    EXPECT_NEAR(std::get<KurtLobe>(material.lobes[0]).roughness.x, 0.25f, 1e-3f);
+    EXPECT_EQ(std::get<KurtLobe>(material.lobes[0]).roughness.y, MIN_ROUGHNESS);
+    EXPECT_NEAR(std::get<KurtLobe>(material.lobes[0]).r0.x * std::get<KurtLobe>(material.lobes[0]).weight.x,
+                0.5f / 9.0f, 1e-6f);
     EXPECT_EQ(material.source->base_color.w, 0.75f);
     EXPECT_EQ(scene.ignored_extensions, (std::vector<std::string>{"KHR_materials_sheen", "VENDOR_x"}));
     EXPECT_FALSE(scene.meshes.at(0).tangents.empty()); // anisotropic: derived around y, since there is no uv

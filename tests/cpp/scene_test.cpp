@@ -18,7 +18,7 @@ TEST(Material, RangesAreNamed) {
               "roughness: expected 1e-06..1, got 0");
     Material material;
     material.lobes.resize(2);
-    material.lobes[1].alpha = 1.5f;
+    std::get<KurtLobe>(material.lobes[1]).alpha = 1.5f;
     EXPECT_EQ(message_of([&] { validate(material); }), "lobes[1].alpha: expected 0..1, got 1.5");
     material.lobes.assign(5, {});
     EXPECT_EQ(message_of([&] { validate(material); }), "lobes: expected at most 4, got 5");
@@ -64,9 +64,9 @@ TEST(Material, ClearcoatIsALobeOnTop) {
     material.source->clearcoat_roughness = 0.1f;
     map_metallic_roughness(material);
     ASSERT_EQ(material.lobes.size(), 2u);
-    EXPECT_EQ(material.lobes[1].weight, glm::vec3(0.5f));
-    EXPECT_EQ(material.lobes[1].r0, glm::vec3(0.04f));
-    EXPECT_NEAR(material.lobes[1].roughness.x, 0.01f, 1e-6f);
+    EXPECT_EQ(std::get<KurtLobe>(material.lobes[1]).weight, glm::vec3(0.5f));
+    EXPECT_EQ(std::get<KurtLobe>(material.lobes[1]).r0, glm::vec3(0.04f));
+    EXPECT_NEAR(std::get<KurtLobe>(material.lobes[1]).roughness.x, 0.01f, 1e-6f);
     validate(material);
 }
 

@@ -1,9 +1,11 @@
-// Kurt's lobe as plain data.
+// Kurt's lobe: plain data, and what the engine asks of it.
 #pragma once
 
 #include <string>
 
 #include <glm/glm.hpp>
+
+#include "burnish/lobe/facts.h"
 
 namespace burnish {
 
@@ -30,5 +32,7 @@ struct KurtLobe {
 
 /// Throws std::invalid_argument, naming field, range and value; `prefix` goes before the field's name.
 void validate(const KurtLobe& lobe, const std::string& prefix = "");
+LobeFacts facts(const KurtLobe& lobe);
+shared::LobeRecord record(const KurtLobe& lobe);
 
 } // namespace burnish

@@ -12,10 +12,8 @@ namespace {
 
 uint32_t alpha_form(const Subject& subject) {
     uint32_t all = shared::ALPHA_ZERO;
-    for (const KurtLobe& lobe : subject.material.lobes) {
-        const uint32_t form = lobe.alpha == 0.0f   ? shared::ALPHA_ZERO
-                              : lobe.alpha == 0.5f ? shared::ALPHA_HALF
-                                                   : shared::ALPHA_GENERAL;
+    for (const Lobe& lobe : subject.material.lobes) {
+        const uint32_t form = facts(lobe).alpha_form;
         const bool is_first = &lobe == &subject.material.lobes.front();
         all = is_first || all == form ? form : shared::ALPHA_GENERAL;
     }
@@ -24,13 +22,11 @@ uint32_t alpha_form(const Subject& subject) {
 
 bool has_fresnel(const Subject& subject) {
     return any_lobe(subject.material,
-                    [&](const KurtLobe& lobe) { return lobe.has_fresnel() || is_varying(subject.material); });
+                    [&](const LobeFacts& lobe) { return lobe.has_fresnel || is_varying(subject.material); });
 }
 
 bool conserves_energy(const Subject& subject) {
-    // With alpha = 0 nothing is gained.
-    return any_lobe(subject.material,
-                    [](const KurtLobe& lobe) { return lobe.conserve_energy && lobe.alpha > 0.0f; });
+    return any_lobe(subject.material, [](const LobeFacts& lobe) { return lobe.gains_energy; });
 }
 
 bool has_lobes(const Variant& variant) {

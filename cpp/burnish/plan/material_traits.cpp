@@ -7,8 +7,8 @@
 
 namespace burnish {
 
-bool any_lobe(const Material& material, const std::function<bool(const KurtLobe&)>& asks) {
-    return std::any_of(material.lobes.begin(), material.lobes.end(), asks);
+bool any_lobe(const Material& material, const std::function<bool(const LobeFacts&)>& asks) {
+    return std::ranges::any_of(material.lobes, [&](const Lobe& lobe) { return asks(facts(lobe)); });
 }
 
 bool has_texture(const Material& material, TextureUse MetallicRoughness::*which) {
@@ -54,7 +54,7 @@ bool has_coat_normal(const Material& material) {
 bool is_brushed(const Material& material) {
     // A texture may make a lobe narrower than its factors, of which the widest is round however brushed.
     if (is_varying(material)) return material.source->anisotropy > 0.0f && !material.lobes.empty();
-    return any_lobe(material, [](const KurtLobe& lobe) { return lobe.is_anisotropic(); });
+    return any_lobe(material, [](const LobeFacts& lobe) { return lobe.is_brushed; });
 }
 
 bool needs_tangent(const Material& material) {

@@ -10,7 +10,7 @@ namespace burnish {
 bool has_texture(const Material& material, TextureUse MetallicRoughness::*which);
 /// Textures or vertex colours make its attributes vary over the surface.
 bool is_varying(const Material& material);
-bool any_lobe(const Material& material, const std::function<bool(const KurtLobe&)>& asks);
+bool any_lobe(const Material& material, const std::function<bool(const LobeFacts&)>& asks);
 bool has_diffuse(const Material& material);
 bool has_emissive(const Material& material);
 bool has_coat(const Material& material);

@@ -91,12 +91,12 @@ bool fit_view_tables(const Scene& scene, const Plan& plan) {
     if (plan.sampler.placing != Placing::mixtures) return false;
     uint64_t entries = 0;
     for (const MaterialInstance& instance : plan.instances)
-        for (const KurtLobe& lobe : scene.materials[instance.material].lobes)
-            if (lobe.is_anisotropic())
+        for (const Lobe& one : scene.materials[instance.material].lobes)
+            if (const LobeFacts lobe = facts(one); lobe.is_brushed)
                 entries += view_table_entries({.samples = plan.sampler.samples,
-                                               .roughness_x = lobe.roughness.x,
-                                               .roughness_y = lobe.roughness.y,
-                                               .has_schlick = lobe.has_fresnel()});
+                                               .roughness_x = lobe.width.x,
+                                               .roughness_y = lobe.width.y,
+                                               .has_schlick = lobe.has_fresnel});
     return entries <= MOST_VIEW_ENTRIES;
 }
 
@@ -104,16 +104,13 @@ bool fit_view_tables(const Scene& scene, const Plan& plan) {
 /// texture varies the lobe, or tables would be too coarse or too large. Then they are placed at every point,
 /// with as many points a component as the widest lobe needs.
 TableForm matched_form(const Material& material, bool fit_tables, ShadeClass& one) {
-    const auto any = [&](const auto& asks) {
-        return std::any_of(material.lobes.begin(), material.lobes.end(), asks);
-    };
     const bool has_varying = one.variant[shared::SPEC_HAS_VARYING];
-    if (!has_varying && !any([&](const KurtLobe& lobe) {
-            return lobe.is_anisotropic() && !(fit_tables && fits_view_table(lobe.roughness));
+    if (!has_varying && !any_lobe(material, [&](const LobeFacts& lobe) {
+            return lobe.is_brushed && !(fit_tables && fits_view_table(lobe.width));
         }))
         return TableForm::matched_by_view;
-    one.has_wide_components = has_varying || any([](const KurtLobe& lobe) {
-                                  return std::min(lobe.roughness.x, lobe.roughness.y) > WIDE_LOBE;
+    one.has_wide_components = has_varying || any_lobe(material, [](const LobeFacts& lobe) {
+                                  return std::min(lobe.width.x, lobe.width.y) > WIDE_LOBE;
                               });
     return TableForm::matched;
 }
@@ -142,7 +139,7 @@ ShadeClass class_of(const Scene& scene, const Plan& plan, const MaterialInstance
         } else if (plan.settings.sample_source == SampleSource::constants &&
                    one.variant[shared::SPEC_LOBE_COUNT] == 1 && plan.sampler.fits_constants) {
             one.table = TableForm::constant;
-            one.roughness = material.lobes[0].roughness;
+            one.roughness = facts(material.lobes[0]).width;
         } else {
             one.table = TableForm::buffer;
         }

@@ -16,28 +16,15 @@
 namespace burnish::render {
 namespace {
 
-shared::LobeRecord lobe_record(const KurtLobe& lobe) {
-    shared::LobeRecord record{};
-    record.specular = glm::vec4(lobe.weight * lobe.r0, lobe.roughness.x);
-    record.grazing = glm::vec4(lobe.weight * (1.0f - lobe.r0), lobe.roughness.y);
-    record.alpha = lobe.alpha;
-    record.rotation_cos = std::cos(lobe.rotation);
-    record.rotation_sin = std::sin(lobe.rotation);
-    record.albedo_width_nodes = 1;
-    record.conserves_energy = lobe.conserve_energy ? 1 : 0;
-    return record;
-}
-
 bool is_coat(uint32_t which, const ShadeClass& one) {
     return one.variant[shared::SPEC_HAS_COAT] && which + 1 == one.variant[shared::SPEC_LOBE_COUNT];
 }
 
 /// The coat's weight is read from its texture, so the record holds the lobe of weight one.
-KurtLobe lobe_of(const Material& material, uint32_t which, const ShadeClass& one) {
-    KurtLobe lobe =
-        which < material.lobes.size() ? material.lobes[which] : KurtLobe{.weight = glm::vec3(0.0f)};
-    if (is_coat(which, one)) lobe.weight = glm::vec3(1.0f);
-    return lobe;
+Lobe lobe_of(const Material& material, uint32_t which, const ShadeClass& one) {
+    if (which >= material.lobes.size()) return with_weight(Lobe(), glm::vec3(0.0f));
+    const Lobe& lobe = material.lobes[which];
+    return is_coat(which, one) ? with_weight(lobe, glm::vec3(1.0f)) : lobe;
 }
 
 /// By class: entries of the longest table that it reads without a loop, else 0.
@@ -47,9 +34,9 @@ std::vector<uint32_t> unrolled_counts(const Scene& scene, const Plan& plan, Tabl
         const ShadeClass& one = plan.classes[instance.shade_class];
         if (!unrolls_samples(plan, one)) continue;
         for (uint32_t which = 0; which < one.variant[shared::SPEC_LOBE_COUNT]; ++which) {
-            const KurtLobe lobe = lobe_of(scene.materials[instance.material], which, one);
+            const LobeFacts lobe = facts(lobe_of(scene.materials[instance.material], which, one));
             const SampleTable& table =
-                writer.table(one.table, lobe.roughness, plan.environments[instance.environment]->face_size());
+                writer.table(one.table, lobe.width, plan.environments[instance.environment]->face_size());
             uint32_t& count = counts[instance.shade_class];
             count = std::max(count, uint32_t(table.entries.size()));
         }
@@ -135,8 +122,9 @@ ShadeTables make_shade_tables(const vulkan::DevicePointer& device, const Scene& 
                              uint32_t(lobes.size()), one.variant[shared::SPEC_LOBE_COUNT],
                              instance.environment, instance.shade_class});
         for (uint32_t which = 0; which < one.variant[shared::SPEC_LOBE_COUNT]; ++which) {
-            const KurtLobe lobe = lobe_of(material, which, one);
-            shared::LobeRecord record = lobe_record(lobe);
+            const Lobe shown = lobe_of(material, which, one);
+            const LobeFacts lobe = facts(shown);
+            shared::LobeRecord record = burnish::record(shown);
             if (plan.sampler.placing == Placing::mixtures) {
                 if (one.table == TableForm::matched_by_view) {
                     const auto views = writer.view_table(plan.sampler.samples, lobe,
@@ -153,7 +141,7 @@ ShadeTables make_shade_tables(const vulkan::DevicePointer& device, const Scene& 
             } else if (one.table == TableForm::prefiltered) {
                 counts[instance.shade_class].insert(1);
             } else if (one.table != TableForm::none) {
-                const auto samples = writer.samples(writer.table(one.table, lobe.roughness, face_size),
+                const auto samples = writer.samples(writer.table(one.table, lobe.width, face_size),
                                                     class_counts[instance.shade_class]);
                 record.table_begin = samples.begin;
                 record.table_count = samples.count;
@@ -163,7 +151,7 @@ ShadeTables make_shade_tables(const vulkan::DevicePointer& device, const Scene& 
                 const bool is_varying_brushed = is_brushed(material) && !is_coat(which, one);
                 const auto albedo = one.variant[shared::SPEC_HAS_VARYING]
                                         ? writer.varying_albedo(is_varying_brushed, lobe.alpha)
-                                        : writer.albedo(lobe.roughness, lobe.alpha);
+                                        : writer.albedo(lobe.width, lobe.alpha);
                 record.albedo_begin = albedo.begin;
                 record.albedo_width_nodes = albedo.count;
             }

@@ -19,10 +19,6 @@ inline uint32_t whole_phases(uint32_t samples) {
     return (samples + 3) / 4 * 4;
 }
 
-inline float mean(glm::vec3 v) {
-    return (v.r + v.g + v.b) / 3.0f;
-}
-
 /// Appends tables to one buffer, each once.
 class TableWriter {
 public:
@@ -68,15 +64,9 @@ public:
     };
 
     /// First entry of the lookups of one lobe by view, its columns and what its slopes drift by.
-    ViewRange view_table(uint32_t count, const KurtLobe& lobe, bool has_schlick, uint32_t face_size) {
-        MatchedLobe key{count, lobe.roughness.x, lobe.roughness.y, lobe.alpha, 1.0f,
-                        0.0f,  has_schlick,      face_size};
-        const float specular = mean(lobe.weight * lobe.r0), total = mean(lobe.weight);
-        if (lobe.has_fresnel() && total > 0.0f) {
-            // Where nothing is reflected, some direction must still come out.
-            key.specular = std::clamp(specular / total, 1e-3f, 1.0f);
-            key.grazing = 1.0f - key.specular;
-        }
+    ViewRange view_table(uint32_t count, const LobeFacts& lobe, bool has_schlick, uint32_t face_size) {
+        const MatchedLobe key{count,         lobe.width.x, lobe.width.y, lobe.alpha,
+                              lobe.specular, lobe.grazing, has_schlick,  face_size};
         auto found = view_ranges_.find(key);
         if (found == view_ranges_.end()) {
             const KeptViewTable table = cache_.view_table(key);

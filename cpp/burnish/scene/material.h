@@ -1,4 +1,4 @@
-// Materials as plain data: diffuse plus one to four Kurt lobes, and the metallic-roughness source they came
+// Materials as plain data: diffuse plus one to four lobes, and the metallic-roughness source they came
 // from.
 #pragma once
 
@@ -8,7 +8,7 @@
 
 #include <glm/glm.hpp>
 
-#include "burnish/lobe/kurt.h"
+#include "burnish/lobe/lobe.h"
 #include "burnish/scene/texture.h"
 
 namespace burnish {
@@ -51,7 +51,7 @@ struct MetallicRoughness {
 struct Material {
     std::string name;
     glm::vec3 diffuse{0.0f}; ///< diffuse reflectance kd, in [0, 1]
-    std::vector<KurtLobe> lobes;
+    std::vector<Lobe> lobes;
     glm::vec3 emissive{0.0f}; ///< radiance, >= 0, KHR_materials_emissive_strength multiplied in
     AlphaMode alpha_mode = AlphaMode::opaque;
     float alpha_cutoff = 0.5f; ///< >= 0; above 1 nothing shows

@@ -58,18 +58,19 @@ void map_metallic_roughness(Material& material) {
     material.diffuse = base.diffuse;
     material.lobes.clear();
     if (base.weight > 0.0f)
-        material.lobes.push_back({.roughness = base.roughness,
-                                  .r0 = base.r0,
-                                  .alpha = MAPPED_ALPHA,
-                                  .weight = glm::vec3(base.weight),
-                                  .rotation = source.anisotropy_rotation,
-                                  .conserve_energy = true});
+        material.lobes.push_back(KurtLobe{.roughness = base.roughness,
+                                          .r0 = base.r0,
+                                          .alpha = MAPPED_ALPHA,
+                                          .weight = glm::vec3(base.weight),
+                                          .rotation = source.anisotropy_rotation,
+                                          .conserve_energy = true});
     if (source.clearcoat > 0.0f)
-        material.lobes.push_back({.roughness = glm::vec2(slope_of_roughness(source.clearcoat_roughness)),
-                                  .r0 = glm::vec3(CLEARCOAT_R0),
-                                  .alpha = MAPPED_ALPHA,
-                                  .weight = glm::vec3(source.clearcoat),
-                                  .conserve_energy = true});
+        material.lobes.push_back(
+            KurtLobe{.roughness = glm::vec2(slope_of_roughness(source.clearcoat_roughness)),
+                     .r0 = glm::vec3(CLEARCOAT_R0),
+                     .alpha = MAPPED_ALPHA,
+                     .weight = glm::vec3(source.clearcoat),
+                     .conserve_energy = true});
 }
 
 } // namespace burnish

@@ -33,3 +33,17 @@ def test_plan_and_renderer_ask_no_sampler_which_it_is():
         if "holds_alternative" in line or "get_if<" in line
     ]
     assert found == []
+
+
+def test_plan_and_renderer_name_no_model_of_a_lobe():
+    listed = (REPOSITORY / "cpp/burnish/lobe/lobe.h").read_text()
+    models = re.findall(r"\w+Lobe\b", re.search(r"using Lobe = std::variant<([^>]+)>", listed)[1])
+    assert models
+    found = [
+        f"{path.name}: {model}"
+        for folder in ("plan", "render")
+        for path in sorted((REPOSITORY / "cpp/burnish" / folder).glob("*"))
+        for model in models
+        if model in path.read_text()
+    ]
+    assert found == []

@@ -1,0 +1,34 @@
+// The lobes a material may have: each model is one file, and a name in this list.
+#pragma once
+
+#include <string>
+#include <variant>
+
+#include "burnish/lobe/kurt.h"
+
+namespace burnish {
+
+using Lobe = std::variant<KurtLobe>;
+
+/// Throws std::invalid_argument, naming field, range and value; `prefix` goes before the field's name.
+inline void validate(const Lobe& lobe, const std::string& prefix = "") {
+    std::visit([&](const auto& one) { validate(one, prefix); }, lobe);
+}
+inline LobeFacts facts(const Lobe& lobe) {
+    return std::visit([](const auto& one) { return facts(one); }, lobe);
+}
+/// What kernels read of it, but for its tables.
+inline shared::LobeRecord record(const Lobe& lobe) {
+    return std::visit([](const auto& one) { return record(one); }, lobe);
+}
+/// The same lobe of another colour.
+inline Lobe with_weight(const Lobe& lobe, glm::vec3 weight) {
+    return std::visit(
+        [&](auto one) {
+            one.weight = weight;
+            return Lobe(one);
+        },
+        lobe);
+}
+
+} // namespace burnish
