@@ -10,7 +10,7 @@ from pathlib import Path
 
 from . import scaling
 from .bench import Bench
-from .changing_maps import bench_changing_maps
+from .changing_maps import bench_changing_maps, bench_one_of_many
 from .compare import SLOWER, compare, read_run, table
 from .compilation import bench_compilation
 from .drivers import bench_drivers
@@ -32,6 +32,7 @@ PARTS: dict[str, tuple[Callable[[Bench], None], str]] = {
     "samplers": (bench_samplers, "Matched against Regular at equal counts"),
     "maps": (bench_maps, "levels that Matched and Prefiltered read"),
     "changing": (bench_changing_maps, "a new map in every frame against one that stays"),
+    "many": (bench_one_of_many, "one of 24 maps replaced, and all of them"),
     "display": (bench_display, "8-bit sRGB made on the device or in numpy"),
     "pyramids": (bench_pyramids, "pyramids by three filters"),
     "compile": (bench_compilation, "the first picture of a roughness, waiting for its pipeline or not"),

@@ -12,6 +12,8 @@ from .bench import CPU, SIZE, Bench, camera, pass_times, sphere_scene
 
 FACE_SIZES = (128, 256, 512, 1024)
 MAP_PASSES = ("upload", "pyramid", "pack", "prefilter")
+MANY = 24
+SAMPLERS = (burnish.Matched(5), burnish.Regular(14), burnish.Prefiltered())
 
 
 def bench_changing_maps(bench: Bench) -> None:
@@ -53,6 +55,30 @@ def bench_changing_maps(bench: Bench) -> None:
             f"  {size:5}{one['wall']:8.1f}{new['wall']:8.1f}{new['wall'] - one['wall']:8.1f}"
             + "".join(f"{ms:8.1f}" for ms in [*passes, rest, new["environment"]])
         )
+
+
+def bench_one_of_many(bench: Bench) -> None:
+    """Map passes of a frame for which one of many maps was replaced, and of one for which all were."""
+    print(f"\nmap passes of {MANY} objects, each with a map of 256, ms: all new, one new, its share of one")
+    scene = burnish.Scene.spheres([burnish.Material(lobes=[burnish.KurtLobe(0.2)])] * MANY, columns=6)
+    seeds = iter(range(10**6))
+
+    def frame(sampler: burnish.rendering.Sampler, changed: int) -> dict[str, float]:
+        for one in scene.objects[:changed]:
+            one.reflects = burnish.environments.spots(next(seeds), 256)
+        data = _core.render(bench.device, scene, scene.default_camera(), 64, 64, sampler, 1, "gauss6", None)
+        times = pass_times(data.report)
+        return {"maps": sum(ms for name, ms in times.items() if name in MAP_PASSES)}
+
+    for sampler in SAMPLERS:
+        name = type(sampler).__name__
+        times = bench.alternate(
+            f"one of {MANY}, {name}",
+            {"all": lambda by=sampler: frame(by, MANY), "one": lambda by=sampler: frame(by, 1)},
+        )
+        everything, one = times["all"]["maps"], times["one"]["maps"]
+        print(f"  {name:12}{everything:8.1f}{one:8.2f}{MANY * one / everything:8.2f}")
+        bench.state(f"one of {MANY} maps, {name}", MANY * one / everything, 1.5, at_least=False)
 
 
 def _of_others(times: Mapping[str, float]) -> float:
