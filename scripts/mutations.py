@@ -30,7 +30,7 @@ class Mutation:
 
 
 LOBE, MATCHED, POINT = "glsl/shade/lobe.glsl", "glsl/shade/matched.glsl", "glsl/shade/surface_point.glsl"
-KURT, FRAME, LOOKUP = "glsl/lib/kurt_lobe.glsl", "glsl/lib/frame.glsl", "glsl/lookup/map_lookup.glsl"
+KURT, FRAME, LOOKUP = "glsl/lobe/kurt.glsl", "glsl/lib/frame.glsl", "glsl/lookup/map_lookup.glsl"
 
 MUTATIONS = (
     Mutation(

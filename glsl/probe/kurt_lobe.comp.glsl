@@ -1,8 +1,8 @@
-// Runs one function of lib/kurt_lobe.glsl over a buffer, for tests.
+// Runs one function of lobe/kurt.glsl over a buffer, for tests.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
-#include "lib/kurt_lobe.glsl"
+#include "lobe/kurt.glsl"
 #include "probe/items.glsl"
 
 void run() {

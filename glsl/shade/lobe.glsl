@@ -5,7 +5,7 @@
 #define BURNISH_SHADE_LOBE
 
 #include "lib/footprint.glsl"
-#include "lib/kurt_lobe.glsl"
+#include "lobe/kurt.glsl"
 #include "shade/albedo.glsl"
 #include "shade/bindings.glsl"
 #include "lookup/map_lookup.glsl"

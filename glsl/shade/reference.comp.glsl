@@ -7,7 +7,7 @@
 #extension GL_EXT_control_flow_attributes : require
 
 #include "lib/cube_map.glsl"
-#include "lib/kurt_lobe.glsl"
+#include "lobe/kurt.glsl"
 #include "lib/random.glsl"
 #include "shade/albedo.glsl"
 #include "lookup/map_lookup.glsl"

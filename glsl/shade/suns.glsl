@@ -2,7 +2,7 @@
 #ifndef BURNISH_SHADE_SUNS
 #define BURNISH_SHADE_SUNS
 
-#include "lib/kurt_lobe.glsl"
+#include "lobe/kurt.glsl"
 #include "shade/lobe.glsl"
 
 layout(constant_id = SPEC_SUN_COUNT) const uint SUN_COUNT = 0u;

@@ -4,7 +4,7 @@
 
 #include "lib/display.glsl"
 #include "lib/frame.glsl"
-#include "lib/kurt_lobe.glsl"
+#include "lobe/kurt.glsl"
 #include "shade/guard.glsl"
 
 struct SurfaceLobe {

@@ -50,9 +50,9 @@ def cpp_violations(area, text):
 
 
 def glsl_violations(area, text):
-    """Entry points may include their own folder, lookup, lib and shared; lib may include lib and shared."""
-    own = {"shared": {"shared"}, "lib": {"lib", "shared"}}
-    allowed = own.get(area, {area, "lookup", "lib", "shared"})
+    """Entry points may include their own folder, lookup, lobe, lib and shared; lib knows no lobe."""
+    own = {"shared": {"shared"}, "lib": {"lib", "shared"}, "lobe": {"lobe", "lib", "shared"}}
+    allowed = own.get(area, {area, "lookup", "lobe", "lib", "shared"})
     for _, name in INCLUDE.findall(re.sub(r"#ifdef __cplusplus.*?#(else|endif)", "", text, flags=re.DOTALL)):
         if name.split("/")[0] not in allowed:
             yield f'{area} includes "{name}"'
@@ -125,6 +125,7 @@ def test_a_forbidden_include_is_found(area, line):
 
 def test_a_forbidden_glsl_include_or_oracle_import_is_found():
     assert list(glsl_violations("lib", '#include "shade/lobe.glsl"'))
+    assert list(glsl_violations("lib", '#include "lobe/kurt.glsl"'))
     assert list(glsl_violations("shared", '#include "lib/frame.glsl"'))
     assert list(glsl_violations("shade", '#include "surface/view.glsl"'))
     assert list(oracle_violations("import scipy.special"))

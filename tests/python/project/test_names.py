@@ -1,4 +1,4 @@
-"""One concept, one name: every function of glsl/lib has its float64 twin in burnish.oracle, or a reason."""
+"""One concept, one name: what glsl/lib and glsl/lobe define has its float64 twin, or a reason."""
 
 import importlib
 import pkgutil
@@ -35,10 +35,10 @@ WITHOUT_TWIN: dict[str, str] = {}
 
 
 def glsl_functions():
-    root = REPOSITORY / "glsl/lib"
-    return {
-        name: path.name for path in sorted(root.glob("*.glsl")) for name in FUNCTION.findall(path.read_text())
-    }
+    files = [
+        path for folder in ("lib", "lobe") for path in sorted((REPOSITORY / "glsl" / folder).glob("*.glsl"))
+    ]
+    return {name: path.name for path in files for name in FUNCTION.findall(path.read_text())}
 
 
 def oracle_functions():

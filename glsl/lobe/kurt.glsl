@@ -1,7 +1,7 @@
 // The Kurt lobe (RS eqs. 1-5, after Kurt et al. 2010) in forms that stay exact in float32.
 // Half-vectors and directions are in the local frame, z = normal. m = roughness along x and y.
-#ifndef BURNISH_LIB_KURT_LOBE
-#define BURNISH_LIB_KURT_LOBE
+#ifndef BURNISH_LOBE_KURT
+#define BURNISH_LOBE_KURT
 
 const float PI = 3.14159265358979;
 // Cosines of the view below it are taken as this: the lobe's grazing power stays finite.
