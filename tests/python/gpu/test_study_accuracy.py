@@ -159,12 +159,12 @@ def test_ctrl_c_in_a_long_reference_ends_the_study(scene, device, monkeypatch):
     def interrupt(share, step):
         raise KeyboardInterrupt
 
-    original = burnish.study.subject.render
+    original = burnish.study.subject.draw
 
     def render(*arguments):
         return original(*arguments[:-1], interrupt if arguments[-1] else None)
 
-    monkeypatch.setattr(burnish.study.subject, "render", render)
+    monkeypatch.setattr(burnish.study.subject, "draw", render)
     with pytest.raises(StudyInterrupted) as caught:
         measure(scene, device)
     assert caught.value.study.rows == []
