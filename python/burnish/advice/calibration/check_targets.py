@@ -1,7 +1,5 @@
 """Judge the advice: ask for errors, and measure what is reached.
 
-``python -m burnish.advice.calibration.check_targets``
-
 Pictures of scenes under environments that the error model was not fitted to. The error that is reached is
 that of the very picture that was asked for: of lobes alone against a sum over every texel, with ``--diffuse``
 of scenes with diffuse parts against a progressive reference of a third of the smallest target. Beside it
