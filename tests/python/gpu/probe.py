@@ -21,12 +21,10 @@ CONSTANT = re.compile(r"PROBE_(\w+) = (\d+)u;")
 
 
 def lib_functions():
-    """Name of every function defined in glsl/lib, and the file it stands in."""
-    return {
-        name: path.stem
-        for path in sorted((REPOSITORY / "glsl/lib").glob("*.glsl"))
-        for name in FUNCTION.findall(path.read_text())
-    }
+    """Name of every function of glsl/lib and glsl/lobe, and its probe: of its file, or of its lobe."""
+    probes = {path: path.stem for path in sorted((REPOSITORY / "glsl/lib").glob("*.glsl"))}
+    probes |= {path: f"{path.stem}_lobe" for path in sorted((REPOSITORY / "glsl/lobe").glob("*.glsl"))}
+    return {name: probe for path, probe in probes.items() for name in FUNCTION.findall(path.read_text())}
 
 
 def probe_numbers():

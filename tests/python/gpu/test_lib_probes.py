@@ -1,4 +1,4 @@
-"""Every function of glsl/lib is probed, and every probe is used by a test."""
+"""Every function of glsl/lib and glsl/lobe is probed, and every probe is used by a test."""
 
 import re
 from pathlib import Path
