@@ -11,6 +11,7 @@
 #include "burnish/render/renderer.h"
 #include "interpreter.h"
 #include "numpy.h"
+#include "report_values.h"
 #include "scene_values.h"
 
 namespace burnish {
@@ -38,75 +39,6 @@ PlanSettings plan_settings(const Sampler& sampler, int64_t spp, const std::strin
     settings.spp = uint32_t(spp);
     settings.filter = pyramid_filter(filter);
     return settings;
-}
-
-py::list effects_list(const std::vector<EffectLine>& effects) {
-    py::list result;
-    for (const EffectLine& line : effects)
-        result.append(py::dict(py::arg("name") = line.name, py::arg("on") = line.is_on,
-                               py::arg("reason") = line.reason));
-    return result;
-}
-
-py::dict values_dict(const Variant& variant) {
-    py::dict result;
-    for (const EffectValue& one : effect_values(variant))
-        result[one.name] = one.value;
-    return result;
-}
-
-py::list stopped_list(const render::Report& report) {
-    py::list result;
-    for (const render::StoppedValues& one : report.stopped) {
-        py::object first = py::int_(one.first);
-        if (report.width) first = py::make_tuple(one.first / report.width, one.first % report.width);
-        result.append(
-            py::dict(py::arg("pass") = one.pass, py::arg("count") = one.count, py::arg("first") = first));
-    }
-    return result;
-}
-
-py::dict report_dict(const render::Report& report) {
-    py::list passes, classes;
-    for (const vulkan::PassTime& pass : report.passes)
-        passes.append(py::dict(py::arg("name") = pass.name, py::arg("milliseconds") = pass.milliseconds));
-    std::string used;
-    for (const render::ClassReport& one : report.classes) {
-        classes.append(py::dict(py::arg("effects") = effect_names(one.variant),
-                                py::arg("values") = values_dict(one.variant), py::arg("table") = one.table,
-                                py::arg("samples") = one.samples, py::arg("reason") = one.reason));
-        if (!one.samples.empty() && used.find(one.samples) == std::string::npos)
-            used += (used.empty() ? "" : ", ") + one.samples;
-    }
-    if (report.reference_samples)
-        used = message(report.reference_samples, " (standard error ", report.standard_error, ")");
-    else if (report.sampler == "reference")
-        used = "every texel";
-    py::dict result;
-    result["version"] = BURNISH_VERSION;
-    result["device"] =
-        py::dict(py::arg("name") = report.device_name, py::arg("driver") = report.device_driver,
-                 py::arg("is_software") = report.is_software);
-    result["size"] = py::make_tuple(report.height, report.width);
-    result["spp"] = report.spp;
-    result["filter"] = report.filter;
-    result["sampler"] = py::dict(py::arg("name") = report.sampler.substr(0, report.sampler.find(':')),
-                                 py::arg("requested") = report.sampler, py::arg("used") = used);
-    result["passes"] = passes;
-    result["compile_ms"] = report.compile_ms;
-    result["prepare_ms"] = report.prepare_ms;
-    result["wall_ms"] = report.wall_ms;
-    result["effects"] = effects_list(report.effects);
-    result["classes"] = classes;
-    result["triangles"] = report.triangles;
-    result["stopped"] = stopped_list(report);
-    result["diffuse_error"] = report.diffuse_error;
-    result["standard_error"] = report.standard_error;
-    std::vector<std::string> warnings = report.warnings;
-    warnings.insert(warnings.end(), report.problems.begin(), report.problems.end());
-    result["warnings"] = warnings;
-    result["ignored_extensions"] = report.ignored_extensions;
-    return result;
 }
 
 py::dict plan_dict(const Scene& scene, const Sampler& sampler, int64_t spp, const std::string& filter,
@@ -183,7 +115,7 @@ std::span<const glm::vec3> directions(const py::array_t<float, py::array::c_styl
 py::tuple shade_points(render::Renderer& renderer, const std::shared_ptr<Environment>& environment,
                        const Material& material, const Sampler& sampler, const py::array& normals,
                        const py::array& tangents, const py::array& views, const std::string& filter,
-                       bool is_strict) {
+                       bool is_strict, bool wants_report) {
     const auto normal_array = require_array<float>(normals, "normals", {any, 3});
     const auto tangent_array = require_array<float>(tangents, "tangents", {any, 3});
     const auto view_array = require_array<float>(views, "views", {any, 3});
@@ -199,9 +131,8 @@ py::tuple shade_points(render::Renderer& renderer, const std::shared_ptr<Environ
     if (is_strict) raise_if_stopped(report);
     std::vector<float> values(radiance.size() * 3);
     std::memcpy(values.data(), radiance.data(), values.size() * sizeof(float));
-    py::dict data = report_dict(report);
-    data["problems"] = report.problems;
-    return py::make_tuple(make_array(std::move(values), {py::ssize_t(radiance.size()), 3}), data);
+    return py::make_tuple(make_array(std::move(values), {py::ssize_t(radiance.size()), 3}), report.problems,
+                          wants_report ? py::object(report_dict(report)) : py::none());
 }
 
 std::shared_ptr<render::Frame> render_scene(render::Renderer& renderer, const Scene& scene,
@@ -253,8 +184,8 @@ void bind_render(py::module_& m) {
           "Render one frame; burnish.render documents the arguments.");
     m.def("shade", &shade_points, py::arg("device"), py::arg("environment"), py::arg("material"),
           py::arg("sampler"), py::arg("normals"), py::arg("tangents"), py::arg("views"), py::arg("filter"),
-          py::arg("is_strict") = false,
-          "(radiance, report) of points; burnish.shade documents the arguments.");
+          py::arg("is_strict") = false, py::arg("wants_report") = false,
+          "(radiance, problems, report or None) of points; burnish.shade documents the arguments.");
     m.def(
         "time_lookups",
         [](render::Renderer& renderer, const std::shared_ptr<Environment>& environment,

@@ -142,14 +142,14 @@ def shade(
     _require_directions(normals, "normals")
     _require_directions(tangents, "tangents", len(normals))
     _require_directions(views, "views", len(normals))
-    radiance: FloatArray = np.zeros((0, 3), np.float32)
-    data: dict[str, Any] = {"spp": 1, "filter": filter, "problems": []}
-    if len(normals) > 0:
-        radiance, data = _core.shade(
-            device or default_device(), env, material, sampler, normals, tangents, views, filter, strict
-        )
-    problems = data.pop("problems")
-    if report:
+    if len(normals) == 0:
+        none: FloatArray = np.zeros((0, 3), np.float32)
+        return (none, Report({"filter": filter})) if report else none
+    points = (normals, tangents, views)
+    radiance, problems, data = _core.shade(
+        device or default_device(), env, material, sampler, *points, filter, strict, report
+    )
+    if data is not None:
         return radiance, Report(data | {"points": len(radiance)})
     for text in problems:
         warnings.warn(text, RuntimeWarning, stacklevel=2)

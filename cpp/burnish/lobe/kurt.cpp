@@ -37,7 +37,7 @@ LobeFacts facts(const KurtLobe& lobe) {
                                             : shared::ALPHA_GENERAL;
     const float specular = mean(lobe.weight * lobe.r0), total = mean(lobe.weight);
     if (lobe.has_fresnel() && total > 0.0f) {
-        // Where nothing is reflected, some direction must still come out.
+        // Some direction must come out even where nothing is reflected.
         facts.specular = std::clamp(specular / total, 1e-3f, 1.0f);
         facts.grazing = 1.0f - facts.specular;
     }

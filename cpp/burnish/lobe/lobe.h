@@ -17,7 +17,7 @@ inline void validate(const Lobe& lobe, const std::string& prefix = "") {
 inline LobeFacts facts(const Lobe& lobe) {
     return std::visit([](const auto& one) { return facts(one); }, lobe);
 }
-/// What kernels read of it, but for its tables.
+/// Kernels read this of it, besides its tables.
 inline shared::LobeRecord record(const Lobe& lobe) {
     return std::visit([](const auto& one) { return record(one); }, lobe);
 }

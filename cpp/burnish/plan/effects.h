@@ -35,7 +35,7 @@ struct Effect {
 /// All of them, in the order of reports.
 std::span<const Effect> effects();
 
-/// What a subject calls for; without lobes: of captured maps.
+/// The subject calls for these values; captured maps leave lobes out.
 Variant variant_of(const Subject& subject, bool has_lobes);
 /// The same with all that pipelines can share.
 Variant shared_variant(const Variant& variant);
@@ -47,7 +47,7 @@ struct EffectValue {
     const char* name;
     uint32_t value;
 };
-/// Of every effect, for programs.
+/// Programs read these, one of every effect.
 std::vector<EffectValue> effect_values(const Variant& variant);
 
 } // namespace burnish

@@ -8,7 +8,7 @@ namespace burnish {
 
 class Variant {
 public:
-    /// Of a constant SPEC_... of an effect; 0 of others.
+    /// The value of an effect's constant SPEC_...; 0 of other constants.
     uint32_t operator[](uint32_t constant) const { return values_.at(constant); }
     uint32_t& operator[](uint32_t constant) { return values_.at(constant); }
 

@@ -13,7 +13,7 @@ namespace burnish::render {
 
 class AccumulatePass {
 public:
-    /// Of so many pictures in these targets; the last one may be stored for a display, its radiance scaled.
+    /// The targets take so many pictures; the last one may be stored for a display, its radiance scaled.
     AccumulatePass(Pipelines& pipelines, const FrameTargets& targets, uint32_t picture_count,
                    uint64_t pixel_count, bool has_display, float display_scale);
 

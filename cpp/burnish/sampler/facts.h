@@ -1,4 +1,4 @@
-// What the plan and the renderer ask of a sampler: each answers for itself in its own file.
+// Plan and renderer ask this of a sampler; each answers for itself in its own file.
 #pragma once
 
 #include <cstdint>
