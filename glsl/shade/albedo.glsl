@@ -1,4 +1,5 @@
-// Directional albedo of a lobe from its table (see AlbedoTable in cpp/burnish/lobe/albedo_table.h), without cos_o^-alpha.
+// Directional albedo of a lobe from its table, without cos_o^-alpha: see AlbedoTable in
+// cpp/burnish/lobe/albedo_table.h.
 #ifndef BURNISH_SHADE_ALBEDO
 #define BURNISH_SHADE_ALBEDO
 

@@ -16,8 +16,8 @@ vec3 irradiance_texel(int index) {
     return imageLoad(irradiance_cubes, index).rgb;
 }
 
-// One seamless bilinear lookup in the cube of a map, whose faces have a border (cpp/burnish/light/irradiance_cube.h). It is in
-// float32 on every device, so no light is too dim or too bright for it, and takes fewer rows than nine harmonics.
+// One seamless bilinear lookup in the cube of a map, whose faces have a border (cpp/burnish/light/irradiance_cube.h).
+// It is in float32 on every device, so no light is too dim or too bright for it, and takes fewer rows than nine harmonics.
 vec3 look_up_irradiance(vec3 n, uint map_index) {
     const int pitch = int(IRRADIANCE_PITCH);
     const float half_size = 0.5 * float(IRRADIANCE_FACE);

@@ -18,8 +18,8 @@ SHARED_CONST uint MAX_CONSTANT_SAMPLES = 64u;
 // compile, 240 took 18 s.
 SHARED_CONST uint MAX_UNROLLED_SAMPLES = 80u;
 
-// Nodes of albedo tables, see cpp/burnish/lobe/albedo_table.h: cosines of the view and roughnesses lie at squares, so that they
-// are dense where both are small.
+// Nodes of albedo tables, see cpp/burnish/lobe/albedo_table.h: cosines of the view and roughnesses lie at squares, so
+// that they are dense where both are small.
 SHARED_CONST uint ALBEDO_COS_NODES = 128u;
 SHARED_CONST uint ALBEDO_ROUGHNESS_NODES = 32u; // of round lobes whose roughness varies
 // Of brushed lobes whose roughness varies.
@@ -37,8 +37,9 @@ SHARED_CONST float MATCHED_LOG2_LARGEST_RHO = 6.6438562f;
 // nodes from the normal to the horizon.
 SHARED_CONST uint MATCHED_VIEW_NODES = 128u;
 SHARED_CONST float MATCHED_MOST_VIEW_ASPECT = 16.0f;
-// Of the linear map's variance, what a component of a mixture has: so much of a wide or a long lobe, and of a narrow round one
-// less by (LESS - LESS_OF_ONE/n) exp(-DECAY mx my)/rho, which the mean of two levels is wider than the level between them.
+// A component of a mixture has this share of the linear map's variance if its lobe is wide or long, and less by
+// (LESS - LESS_OF_ONE/n) exp(-DECAY mx my)/rho if it is narrow and round: the mean of two levels is wider than a
+// level between them.
 SHARED_CONST float MATCHED_VARIANCE_SHARE = 0.95f;
 SHARED_CONST float MATCHED_NARROW_LESS = 0.13f;
 SHARED_CONST float MATCHED_NARROW_LESS_OF_ONE = 0.25f;

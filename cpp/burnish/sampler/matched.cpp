@@ -27,8 +27,7 @@ SamplerFacts facts(const Matched& sampler) {
         .samples = sampler.samples,
         .takes_suns_out = true,
         .needs_albedo = true,
-        .normalization = shared::NORMALIZATION_FURNACE,
-        .scaled_normalization = shared::NORMALIZATION_FURNACE};
+        .normalization = shared::NORMALIZATION_FURNACE};
 }
 
 } // namespace burnish
