@@ -85,8 +85,7 @@ def main() -> None:
     options = parser.parse_args()
     # The reference of a lobe narrower than a texel may stop short of its standard error, and says so.
     warnings.simplefilter("ignore", RuntimeWarning)
-    # A pipeline for each roughness would take longer to make than to use.
-    device = burnish.Device(compile="shared")
+    device = burnish.Device()
     made = maps(options.files, options.face_size)
     cells = judge(
         {name: make for name, (_, make) in made.items()},

@@ -197,20 +197,19 @@ void bind_render(py::module_& m) {
     m.def(
         "time_shading",
         [](render::Renderer& renderer, const Scene& scene, const Camera& camera, const Sampler& sampler,
-           bool has_lookups, bool has_constants) {
+           bool has_lookups, bool is_written_out) {
             render::RenderSettings settings;
             settings.width = 1920;
             settings.height = 1080;
             settings.plan.sampler = sampler;
             settings.plan.has_lookups = has_lookups;
-            if (!has_constants) settings.plan.sample_source = SampleSource::loop;
+            if (!is_written_out) settings.plan.sample_loop = SampleLoop::loop;
             return report_dict(renderer.render(scene, camera, settings).report);
         },
         py::arg("device"), py::arg("scene"), py::arg("camera"), py::arg("sampler"), py::arg("has_lookups"),
-        py::arg("has_constants") = true,
-        "dict: the report of a 1920x1080 frame, for benchmarks. Its lookups may be left out, and its sample "
-        "tables read from a "
-        "buffer in a loop.");
+        py::arg("is_written_out") = true,
+        "dict: the report of a 1920x1080 frame, for benchmarks. Its lookups may be left out, and its samples "
+        "taken in a loop.");
     m.def(
         "plan", &plan_dict, py::arg("scene"), py::arg("sampler"), py::arg("spp"), py::arg("filter"),
         py::arg("is_software"), py::arg("display_exposure").none(true) = py::none(),

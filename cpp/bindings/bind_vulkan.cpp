@@ -1,10 +1,6 @@
 // Devices. A Python Device is a renderer with its device: what one frame leaves behind, the next can use.
 #include <memory>
-#include <mutex>
 #include <optional>
-#include <vector>
-
-#include <pthread.h>
 
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
@@ -68,11 +64,15 @@ std::optional<py::dict> measurement_of(const LookupChoice& lookup) {
     return result;
 }
 
-render::Compilation compilation(const std::string& name) {
-    if (name == "wait") return render::Compilation::wait;
-    if (name == "background") return render::Compilation::background;
-    if (name == "shared") return render::Compilation::shared;
-    throw std::invalid_argument(message("compile: expected wait, background or shared, got '", name, "'"));
+/// Callers of earlier versions chose what a picture does while its pipeline is compiled.
+void check_compile(const std::optional<std::string>& compile) {
+    if (!compile) return;
+    if (*compile != "wait" && *compile != "background" && *compile != "shared")
+        throw std::invalid_argument(
+            message("compile: expected wait, background or shared, got '", *compile, "'"));
+    if (PyErr_WarnEx(PyExc_DeprecationWarning,
+                     "compile has no effect: pipelines do not depend on a lobe's roughness", 1) != 0)
+        throw py::error_already_set();
 }
 
 size_t checked_budget(int64_t budget) {
@@ -92,20 +92,12 @@ int64_t pipelines_from_environment() {
     return value;
 }
 
-struct OpenRenderers {
-    std::mutex mutex;
-    std::vector<std::weak_ptr<render::Renderer>> all;
-};
-
-/// Never destroyed: a thread may outlive what is static. A fork has none: those of its parent are not to be
-/// touched.
-OpenRenderers* open_renderers = new OpenRenderers;
-
 std::shared_ptr<render::Renderer> open_device(const std::string& name, std::optional<bool> validation,
                                               const std::string& lookup,
                                               std::optional<int64_t> memory_limit_bytes,
-                                              const std::string& compile,
+                                              const std::optional<std::string>& compile,
                                               std::optional<int64_t> pipeline_budget) {
+    check_compile(compile);
     const Released release;
     vulkan::DeviceSettings settings;
     settings.name = name;
@@ -114,7 +106,7 @@ std::shared_ptr<render::Renderer> open_device(const std::string& name, std::opti
                                             least_memory_bytes, ", got ", *memory_limit_bytes));
     if (memory_limit_bytes) settings.memory_limit_bytes = static_cast<VkDeviceSize>(*memory_limit_bytes);
     if (validation) settings.validation = *validation;
-    render::RendererSettings renderer{map_lookup(lookup), {}, compilation(compile)};
+    render::RendererSettings renderer{map_lookup(lookup)};
     renderer.pipeline_budget = checked_budget(pipeline_budget.value_or(pipelines_from_environment()));
     const char* from_environment = std::getenv("BURNISH_LOOKUP");
     if (!renderer.lookup && from_environment && *from_environment)
@@ -123,36 +115,13 @@ std::shared_ptr<render::Renderer> open_device(const std::string& name, std::opti
     // A driver that compiles for minutes is spared; SwiftShader's sampler shows wrong pictures besides.
     if (!renderer.lookup && device->info().is_software && !device->info().compiles_slowly)
         renderer.measured = render::find_lookup_measurement(*device);
-    std::shared_ptr<render::Renderer> opened = render::Renderer::open(device, renderer);
-    const std::lock_guard lock(open_renderers->mutex);
-    std::erase_if(open_renderers->all, [](const auto& one) { return one.expired(); });
-    open_renderers->all.push_back(opened);
-    return opened;
-}
-
-void stop_compiling() {
-    const std::lock_guard lock(open_renderers->mutex);
-    for (const std::weak_ptr<render::Renderer>& one : open_renderers->all)
-        if (const std::shared_ptr<render::Renderer> renderer = one.lock()) renderer->stop_compiling();
-}
-
-const char* compilation_name(render::Compilation compilation) {
-    switch (compilation) {
-    case render::Compilation::wait:
-        return "wait";
-    case render::Compilation::background:
-        return "background";
-    case render::Compilation::shared:
-        return "shared";
-    }
-    return "";
+    return render::Renderer::open(device, renderer);
 }
 
 } // namespace
 
 void bind_vulkan(py::module_& m) {
-    rest_at_interpreter_exit(stop_compiling);
-    pthread_atfork(nullptr, nullptr, [] { open_renderers = new OpenRenderers; });
+    rest_at_interpreter_exit();
     py::class_<vulkan::DeviceInfo>(m, "DeviceInfo", "A Vulkan device of this machine, usable or not.")
         .def_readonly("name", &vulkan::DeviceInfo::name, "As the driver gives it.")
         .def_readonly("driver", &vulkan::DeviceInfo::driver, "Name and version of the driver.")
@@ -200,13 +169,8 @@ lookup : str
 memory_limit_bytes : int or None
     Most memory that it takes from the driver, 2**20 or more; what needs more is refused. None: as much as the driver
     gives, which on a CPU may be more than the machine has to spare.
-compile : str
-    What a picture does while a pipeline with its samples as constants (report: table "constant") is compiled, as each
-    new roughness or count of Regular and Importance needs one. "wait": it waits, so that its bits never depend on when
-    it was asked for. "background": it reads the samples from a buffer, by a pipeline that all roughnesses share, and a
-    thread compiles the other for later pictures; pixels agree to 3e-5. A compilation that fails raises its error from
-    the next call that draws or shades. "shared": it always reads them from a buffer, 1.0 to 1.1 times as long on a CPU:
-    for sliders that are dragged. Shaded points do the same.
+compile : str or None
+    Deprecated, "wait", "background" or "shared": has no effect, pipelines do not depend on a lobe's roughness.
 pipeline_budget : int or None
     Pipelines that it keeps for later pictures, 1 or more; those used longest ago go first, never one that the last
     picture used. On a CPU each holds 7 MB (Regular) to 35 MB (Matched). None: the environment variable
@@ -218,7 +182,7 @@ VulkanError
     If no device fits; the message lists every device with the reason.)")
         .def(py::init(&open_device), py::arg("name") = "", py::arg("validation") = py::none(),
              py::arg("lookup") = "auto", py::arg("memory_limit_bytes") = py::none(),
-             py::arg("compile") = "wait", py::arg("pipeline_budget") = py::none())
+             py::arg("compile") = py::none(), py::arg("pipeline_budget") = py::none())
         .def_property_readonly(
             "name", [](const render::Renderer& self) { return self.device()->info().name; },
             "As the driver gives it.")
@@ -241,18 +205,17 @@ VulkanError
 Milliseconds of all threads, `sampler_ms` and `software_ms`, for the same lookups by either; their `ratio`, software to
 sampler; `date` (UTC); and `kept_in`, the file that later processes read it from, "" where it could not be kept.)")
         .def_property_readonly(
-            "compile", [](const render::Renderer& self) { return compilation_name(self.compilation()); },
-            "What a picture does while its pipeline is compiled: \"wait\", \"background\" or \"shared\".")
+            "compile", [](const render::Renderer&) { return "shared"; },
+            "\"shared\", whatever was asked for: pipelines do not depend on a lobe's roughness.")
         .def_property(
             "pipeline_budget", &render::Renderer::pipeline_budget,
             [](render::Renderer& self, int64_t budget) { self.set_pipeline_budget(checked_budget(budget)); },
             "Pipelines that it keeps for later pictures; a new value holds from the next one on.")
         .def_property_readonly("pipeline_count", &render::Renderer::pipeline_count,
                                "Pipelines that it keeps now.")
-        .def("finish_compiling", &render::Renderer::finish_compiling, py::call_guard<Released>(),
-             "Wait until no pipeline is left to be compiled in the background, where six wait at most, the "
-             "newest. What the last picture showed is then drawn as it stays. For times and tests; a program "
-             "that draws on need not call it.")
+        .def(
+            "finish_compiling", [](const render::Renderer&) {},
+            "Has no effect: nothing is compiled in the background.")
         .def_property_readonly(
             "is_lost", [](const render::Renderer& self) { return self.device()->is_lost(); },
             "True once the driver gave the device up; then all calls raise VulkanError, and a new Device is "

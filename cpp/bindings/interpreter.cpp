@@ -78,15 +78,13 @@ void stop_where_interpreter_ends() {
     if (must_rest()) throw InterpreterEnds();
 }
 
-void rest_at_interpreter_exit(void (*stop_threads)()) {
+void rest_at_interpreter_exit() {
     pthread_atfork(nullptr, nullptr, forget_other_threads);
-    const py::cpp_function end([stop_threads] {
+    const py::cpp_function end([] {
         is_ending = true;
         is_last = true;
         const py::gil_scoped_release release;
-        stop_threads();
         wait_for_work();
-        stop_threads(); // of what was opened meanwhile
     });
     py::module_::import("atexit").attr("register")(end);
 }

@@ -42,8 +42,7 @@ public:
 /// Throws InterpreterEnds once it does, but on the thread that ends it.
 void stop_where_interpreter_ends();
 
-/// Has work come to rest when the interpreter ends, and `stop_threads`, which is called without its lock, end
-/// what else runs; perhaps twice.
-void rest_at_interpreter_exit(void (*stop_threads)());
+/// Has work come to rest when the interpreter ends.
+void rest_at_interpreter_exit();
 
 } // namespace burnish

@@ -13,11 +13,9 @@
 layout(constant_id = SPEC_TABLE) const uint TABLE = TABLE_BUFFER;
 layout(constant_id = SPEC_FOOTPRINT) const uint FOOTPRINT = FOOTPRINT_EXACT;
 layout(constant_id = SPEC_NORMALIZATION) const uint NORMALIZATION = NORMALIZATION_FURNACE;
-layout(constant_id = SPEC_SAMPLE_COUNT) const uint SAMPLE_COUNT = 1u; // of tables in a buffer: 0 where each has its own
+layout(constant_id = SPEC_SAMPLE_COUNT) const uint SAMPLE_COUNT = 1u; // 0 where each table has its own
 
 layout(constant_id = SPEC_WITHOUT_LOOKUPS) const bool IS_WITHOUT_LOOKUPS = false;
-
-#include "shade/sample_constants.glsl"
 
 layout(constant_id = SPEC_SAMPLE_TABLE_IS_STORED) const bool SAMPLE_TABLE_IS_STORED = false;
 layout(binding = BINDING_SAMPLE_TABLE, rgba32f) uniform readonly imageBuffer sample_table;
@@ -118,26 +116,9 @@ void add_lookup(inout LobeSums sums, Lookup lookup) {
     sums.density += lookup.density;
 }
 
-// Lookups go in phases of four: first all are aimed, then all are loaded, so that a CPU can overlap the loads. (In phases of one,
-// from a buffer, for drivers that compile slowly.)
+// Lookups go in phases of four: first all are aimed, then all are loaded, so that a CPU can overlap the loads. (In phases of one
+// for drivers that compile slowly.)
 layout(constant_id = SPEC_PHASE) const uint PHASE = 4u;
-
-// Unrolled by hand: SAMPLE_COUNT is a constant, so what lies beyond it is not compiled.
-#define PLACE(k, lookup) if (SAMPLE_COUNT > uint(k)) lookup = place_lookup(v, SAMPLE_ENTRY(k));
-#define ADD(k, lookup) if (SAMPLE_COUNT > uint(k)) add_lookup(sums, lookup);
-#define GATHER_PHASE(a, b, c, d)                                                                                       \
-    PLACE(a, l0) PLACE(b, l1) PLACE(c, l2) PLACE(d, l3)                                                                \
-    ADD(a, l0) ADD(b, l1) ADD(c, l2) ADD(d, l3)
-
-LobeSums gather_constant(LobeView v) {
-    LobeSums sums = LobeSums(vec3(0.0), vec3(0.0), 0.0, 0.0, 0.0);
-    Lookup l0, l1, l2, l3;
-    GATHER_PHASE(0, 1, 2, 3) GATHER_PHASE(4, 5, 6, 7) GATHER_PHASE(8, 9, 10, 11) GATHER_PHASE(12, 13, 14, 15)
-    GATHER_PHASE(16, 17, 18, 19) GATHER_PHASE(20, 21, 22, 23) GATHER_PHASE(24, 25, 26, 27) GATHER_PHASE(28, 29, 30, 31)
-    GATHER_PHASE(32, 33, 34, 35) GATHER_PHASE(36, 37, 38, 39) GATHER_PHASE(40, 41, 42, 43) GATHER_PHASE(44, 45, 46, 47)
-    GATHER_PHASE(48, 49, 50, 51) GATHER_PHASE(52, 53, 54, 55) GATHER_PHASE(56, 57, 58, 59) GATHER_PHASE(60, 61, 62, 63)
-    return sums;
-}
 
 void gather_phase(LobeView v, uint first, uint count, inout LobeSums sums) {
     Lookup lookups[PHASE];
@@ -147,9 +128,9 @@ void gather_phase(LobeView v, uint first, uint count, inout LobeSums sums) {
         if (j < count) add_lookup(sums, lookups[j]);
 }
 
-// Tables in the buffer are padded with entries of weight zero: to SAMPLE_COUNT, or to whole phases. A loop that a CPU driver keeps
+// Tables are padded with entries of weight zero: to SAMPLE_COUNT, or to whole phases. A loop that a CPU driver keeps
 // stores all it carries in memory at every turn (measured: 1.5 times the cost of a lobe).
-LobeSums gather_buffer(LobeView v, uint table_begin, uint table_count) {
+LobeSums gather_pattern(LobeView v, uint table_begin, uint table_count) {
     LobeSums sums = LobeSums(vec3(0.0), vec3(0.0), 0.0, 0.0, 0.0);
     if (SAMPLE_COUNT > 0u) {
         [[unroll]] for (uint k = 0u; k < SAMPLE_COUNT; k += PHASE)

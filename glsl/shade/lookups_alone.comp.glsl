@@ -9,7 +9,7 @@
 
 layout(local_size_x = TILE_SIZE, local_size_y = TILE_SIZE) in;
 layout(constant_id = SPEC_SAMPLE_COUNT) const uint SAMPLE_COUNT = 1u;
-#include "shade/sample_constants.glsl"
+#include "shade/lookups_alone_samples.glsl"
 
 layout(push_constant) uniform Push { ShadeRecord push; }; // point_count: width
 layout(std430, binding = BINDING_RADIANCE) buffer Radiance { vec4 radiance_out[]; };

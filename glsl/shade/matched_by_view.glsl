@@ -53,8 +53,10 @@ Lookup place_by_view(LobeView v, TableView view, vec4 entry, float schlick) {
     return lookup;
 }
 
+// Unrolled by hand: SAMPLE_COUNT is a constant, so what lies beyond it is not compiled.
 #define VIEW_ENTRY(k) sample_entry(row + k)
 #define PLACE_BY_VIEW(k, c, lookup) if (SAMPLE_COUNT > uint(k)) lookup = place_by_view(v, view, VIEW_ENTRY(k), schlick[c]);
+#define ADD(k, lookup) if (SAMPLE_COUNT > uint(k)) add_lookup(sums, lookup);
 #define GATHER_BY_VIEW(a, b, c, d)                                                                                     \
     if (HAS_FRESNEL && SAMPLE_COUNT > uint(a)) schlick = VIEW_ENTRY(int(SAMPLE_COUNT) + a / 4);                        \
     PLACE_BY_VIEW(a, 0, l0) PLACE_BY_VIEW(b, 1, l1) PLACE_BY_VIEW(c, 2, l2) PLACE_BY_VIEW(d, 3, l3)                    \

@@ -12,8 +12,6 @@ SHARED_CONST uint TILE_SIZE = 8u;
 SHARED_CONST uint MAX_SHADE_CLASSES = 32u;
 // Dispatches of more groups are folded into rows of equal length: one dimension may hold only 65535.
 SHARED_CONST uint GROUPS_PER_ROW = 32768u;
-// Samples that fit into specialization constants; beyond, the table is read from a buffer.
-SHARED_CONST uint MAX_CONSTANT_SAMPLES = 64u;
 // Lookups of all lobes of a point that are written out one by one; beyond, they are a loop: 56 take a CPU driver about 2 s to
 // compile, 240 took 18 s.
 SHARED_CONST uint MAX_UNROLLED_SAMPLES = 80u;
@@ -127,7 +125,7 @@ SHARED_CONST uint SPEC_PHASE = 27u; // lookups at a turn, of tables in a buffer
 SHARED_CONST uint SPEC_HAS_COAT_NORMAL = 28u; // the clear coat's normal is not the base's
 SHARED_CONST uint SPEC_HAS_HARMONICS = 29u; // diffuse light by nine harmonics, not by an irradiance cube
 SHARED_CONST uint SPEC_IRRADIANCE_IS_STORED = 30u; // in a storage buffer: a texel buffer holds fewer
-SHARED_CONST uint SPEC_SAMPLES = 100u; // four floats a sample follow
+SHARED_CONST uint SPEC_SAMPLES = 100u; // of the lookups alone, for benchmarks: four floats a sample follow
 
 SHARED_CONST uint LOOKUP_SAMPLER = 0u; // the device's
 SHARED_CONST uint LOOKUP_TEXELS = 1u;  // our own (lookup/map_lookup.glsl), from a texel buffer
@@ -144,8 +142,7 @@ SHARED_CONST uint SOURCE_POINTS = 1u;
 SHARED_CONST uint ALPHA_ZERO = 0u;    // cos_i
 SHARED_CONST uint ALPHA_HALF = 1u;    // a square root
 SHARED_CONST uint ALPHA_GENERAL = 2u; // a power
-SHARED_CONST uint TABLE_CONSTANT = 0u; // one lobe, its samples in the pipeline
-SHARED_CONST uint TABLE_BUFFER = 1u;   // any lobes
+SHARED_CONST uint TABLE_BUFFER = 1u; // any lobes
 // Any lobes, slopes in units of a roughness that varies over the surface.
 SHARED_CONST uint TABLE_SCALED_REGULAR = 2u;
 SHARED_CONST uint TABLE_SCALED_IMPORTANCE = 3u;

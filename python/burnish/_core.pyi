@@ -57,7 +57,7 @@ class Device:
         validation: bool | None = None,
         lookup: str = "auto",
         memory_limit_bytes: int | None = None,
-        compile: Literal["wait", "background", "shared"] = "wait",
+        compile: Literal["wait", "background", "shared"] | None = None,
         pipeline_budget: int | None = None,
     ) -> None: ...
     pipeline_budget: int

@@ -19,5 +19,5 @@ def time_shading(
     camera: Camera,
     sampler: Regular | Importance | Matched | Prefiltered | Reference,
     has_lookups: bool,
-    has_constants: bool = True,
+    is_written_out: bool = True,
 ) -> dict[str, Any]: ...

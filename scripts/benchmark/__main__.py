@@ -26,7 +26,7 @@ from .shading import bench_display, bench_pyramids, bench_shading
 PARTS: dict[str, tuple[Callable[[Bench], None], str]] = {
     "machine": (bench_machine, "memory copies"),
     "shading": (bench_shading, "a full 1080p frame, its passes, its lookups alone, its shading alone"),
-    "lookups": (bench_lookups, "the driver's sampler against the lookup of our own, tables in both places"),
+    "lookups": (bench_lookups, "the driver's sampler against our own lookup, in a loop and written out"),
     "drivers": (bench_drivers, "both lookups on this driver and on a newer one, and which each is given"),
     "loop": (bench_loop, "the lookup of our own against a loop by hand in C++, one core and all"),
     "samplers": (bench_samplers, "Matched against Regular at equal counts"),
@@ -35,7 +35,7 @@ PARTS: dict[str, tuple[Callable[[Bench], None], str]] = {
     "many": (bench_one_of_many, "one of 24 maps replaced, and all of them"),
     "display": (bench_display, "8-bit sRGB made on the device or in numpy"),
     "pyramids": (bench_pyramids, "pyramids by three filters"),
-    "compile": (bench_compilation, "the first picture of a roughness, waiting for its pipeline or not"),
+    "compile": (bench_compilation, "the first picture of a roughness against its second"),
     "guards": (bench_guards, "shading with and without looking for values that are not finite"),
     "effects": (bench_effects, "every effect absent, present but zero, present"),
 }

@@ -1,4 +1,4 @@
-"""What a picture takes whose roughness no pipeline was made for, as when somebody drags a slider."""
+"""What a picture takes whose roughness was never drawn, as when somebody drags a slider."""
 
 import random
 import time
@@ -9,39 +9,32 @@ from burnish import _core, environments
 from .bench import Bench, Measure, camera, sphere_scene
 
 SIZE = (540, 960)
-SAMPLER = burnish.Regular(samples=20)
+SAMPLERS = {"regular 20": burnish.Regular(samples=20), "importance 20": burnish.Importance(samples=20)}
 
 
 def bench_compilation(bench: Bench) -> None:
-    """Time the first pictures of a roughness where a device waits for its pipeline and where not."""
+    """Time the first pictures of a roughness on a device that has drawn others."""
     environment = environments.spots(1, 256)
 
-    def picture_ms(device: burnish.Device, scene: burnish.Scene) -> float:
-        began = time.perf_counter()
-        _ = _core.render(device, scene, camera(), *SIZE, SAMPLER, 1, "gauss6", None).color
-        return 1e3 * (time.perf_counter() - began)
+    def measure_by(sampler: object) -> Measure:
+        def picture(scene: burnish.Scene) -> tuple[float, float]:
+            began = time.perf_counter()
+            data = _core.render(bench.device, scene, camera(), *SIZE, sampler, 1, "gauss6", None)
+            _ = data.color
+            return 1e3 * (time.perf_counter() - began), data.report["compile_ms"]
 
-    def measure_on(device: burnish.Device) -> Measure:
         def measure() -> dict[str, float]:
             # Drivers keep what they compiled on the disk: no run may have had this one.
             roughness = random.SystemRandom().uniform(0.1, 0.6)
             scene = sphere_scene(burnish.KurtLobe(roughness=roughness), environment)
-            first = picture_ms(device, scene)
-            device.finish_compiling()
-            return {"first": first, "second": picture_ms(device, scene), "third": picture_ms(device, scene)}
+            first, compiling = picture(scene)
+            return {"first": first, "compiling": compiling, "second": picture(scene)[0]}
 
         return measure
 
-    modes = ("wait", "background")
-    devices = {mode: burnish.Device(bench.device_name, compile=mode) for mode in modes}
-    times = bench.alternate("compile", {mode: measure_on(device) for mode, device in devices.items()})
-    print(
-        "\npictures of a new roughness at 960 x 540, ms, regular 20; the second once its pipeline is compiled"
-    )
-    print(f"  {'compile':<12}{'first':>8}{'second':>8}{'third':>8}")
-    for mode in modes:
-        print(f"  {mode:<12}" + "".join(f"{times[mode][key]:8.1f}" for key in ("first", "second", "third")))
-    bench.state(
-        "first picture of a roughness, background against wait",
-        times["background"]["first"] / times["wait"]["first"],
-    )
+    times = bench.alternate("compile", {name: measure_by(sampler) for name, sampler in SAMPLERS.items()})
+    print("\npictures of a new roughness at 960 x 540, ms; of the first, what was compiled for it")
+    print(f"  {'sampler':<16}{'first':>8}{'compiling':>11}{'second':>8}")
+    for name, one in times.items():
+        print(f"  {name:<16}{one['first']:8.1f}{one['compiling']:11.1f}{one['second']:8.1f}")
+        bench.state(f"first picture of a roughness, {name}, against its second", one["first"] / one["second"])

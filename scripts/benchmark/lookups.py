@@ -25,7 +25,7 @@ ROUND = burnish.KurtLobe(roughness=ROUGHNESS)
 BRUSHED = burnish.KurtLobe(roughness=(0.2, 0.075))
 # Matched to Regular with 20 samples, as the prototype of the fast path had it.
 PROTOTYPE = {5: 0.37, 8: 0.52, 14: 0.84, 20: 1.14}
-BASELINE, OURS = "sampler, table from a buffer", "software, table in constants"
+BASELINE, OURS = "sampler, in a loop", "software, written out"
 
 Devices = dict[str, list[burnish.Device]]
 
@@ -52,9 +52,9 @@ def bench_lookups(bench: Bench) -> None:
 def _shade_passes(bench: Bench, devices: Devices, environment: burnish.Environment) -> None:
     scene = scene_of(ROUND, environment)
 
-    def shading(lookup: str, has_constants: bool) -> Callable[[int], Measure]:
+    def shading(lookup: str, is_written_out: bool) -> Callable[[int], Measure]:
         def run(k: int) -> dict[str, float]:
-            report = _core.time_shading(devices[lookup][k], scene, camera(), PUBLISHED, True, has_constants)
+            report = _core.time_shading(devices[lookup][k], scene, camera(), PUBLISHED, True, is_written_out)
             return {"ms": pass_times(report)["shade 0"]}
 
         return lambda k: lambda: run(k)
@@ -68,8 +68,8 @@ def _shade_passes(bench: Bench, devices: Devices, environment: burnish.Environme
         "lookups",
         {
             BASELINE: shading("sampler", False),
-            "sampler, table in constants": shading("sampler", True),
-            "software, table from a buffer": shading("software", False),
+            "sampler, written out": shading("sampler", True),
+            "software, in a loop": shading("software", False),
             OURS: shading("software", True),
             "lookups alone, sampler": raw("sampler"),
             "lookups alone, software": raw("software"),

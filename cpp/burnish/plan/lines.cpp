@@ -70,46 +70,35 @@ std::string why_at_every_point(const ShadeClass& one, const std::vector<const Ma
     return "tables by view of so many brushed lobes would take too much memory";
 }
 
-std::string why_from_buffer(const ShadeClass& one, const Plan& plan, size_t constant_count) {
-    const PlanSettings& settings = plan.settings;
-    if (one.variant[shared::SPEC_LOBE_COUNT] > 1) return "several lobes";
-    if (!plan.sampler.fits_constants) return "too many samples for constants";
-    if (settings.sample_source == SampleSource::meanwhile)
-        return "the pipeline that has them as constants is being compiled";
-    if (settings.sample_source == SampleSource::buffer)
-        return "pipelines that roughnesses share are asked for";
-    if (settings.sample_source == SampleSource::one_by_one)
-        return "one after the other, which compiles soonest";
-    if (settings.sample_source == SampleSource::loop) return "read in a loop for a benchmark";
-    if (constant_count > MAX_CONSTANT_CLASSES)
-        return message(constant_count, " roughnesses in the picture, more than ", MAX_CONSTANT_CLASSES,
-                       " worth a pipeline each");
-    return "too many kinds of material in the picture for a pipeline each";
+const char* why_in_loop(const ShadeClass& one, const Plan& plan) {
+    switch (plan.settings.sample_loop) {
+    case SampleLoop::written_out:
+        return unrolls_samples(plan, one) ? "" : "; in a loop, too many samples to be written out";
+    case SampleLoop::loop:
+        return "; in a loop for a benchmark";
+    case SampleLoop::one_by_one:
+        return "; one after the other, which compiles soonest";
+    }
+    return "";
 }
 
 } // namespace
 
-std::string describe(const ShadeClass& one, const Scene& scene, const Plan& plan, size_t constant_count) {
+std::string describe(const ShadeClass& one, const Scene& scene, const Plan& plan) {
     std::vector<const Material*> some;
     for (const uint32_t instance : one.instances) {
         const Material* material = &scene.materials[plan.instances[instance].material];
         if (std::find(some.begin(), some.end(), material) == some.end()) some.push_back(material);
     }
     std::string text = listed(visible_materials(scene), some);
-    const bool is_too_long = writes_out_samples(plan.settings) && !unrolls_samples(plan, one);
-    const char* const loop = is_too_long ? "; in a loop, too many samples to be written out" : "";
     switch (one.table) {
     case TableForm::none:
         break;
-    case TableForm::constant:
-        text += message("; one roughness (", one.roughness.x, ", ", one.roughness.y,
-                        "), its samples are constants");
-        break;
     case TableForm::buffer:
-        text += message("; ", why_from_buffer(one, plan, constant_count), ", samples from a buffer", loop);
+        text += message("; samples from a buffer", why_in_loop(one, plan));
         break;
     case TableForm::scaled:
-        text += message("; roughness varies over the surface, samples scale with it", loop);
+        text += message("; roughness varies over the surface, samples scale with it", why_in_loop(one, plan));
         break;
     case TableForm::matched:
         text += "; mixtures placed at every point: " + why_at_every_point(one, some);

@@ -9,8 +9,8 @@ namespace burnish {
 
 /// How the sampler sees the light on diffuse surfaces.
 const char* describe_diffuse(const SamplerFacts& sampler);
-/// "2 of 5 materials, regular:14 from constants, ...": why this pipeline exists.
-std::string describe(const ShadeClass& one, const Scene& scene, const Plan& plan, size_t constant_count);
+/// "2 of 5 materials, samples from a buffer ...": why this pipeline exists.
+std::string describe(const ShadeClass& one, const Scene& scene, const Plan& plan);
 void add_effect_lines(const Scene& scene, Plan& plan);
 void add_pass_lines(Plan& plan);
 /// Says where brushed surfaces have no direction of their own.

@@ -134,15 +134,7 @@ ShadeClass class_of(const Scene& scene, const Plan& plan, const MaterialInstance
         one.table = TableForm::prefiltered;
         break;
     case Placing::pattern:
-        if (one.variant[shared::SPEC_HAS_VARYING]) {
-            one.table = TableForm::scaled;
-        } else if (plan.settings.sample_source == SampleSource::constants &&
-                   one.variant[shared::SPEC_LOBE_COUNT] == 1 && plan.sampler.fits_constants) {
-            one.table = TableForm::constant;
-            one.roughness = facts(material.lobes[0]).width;
-        } else {
-            one.table = TableForm::buffer;
-        }
+        one.table = one.variant[shared::SPEC_HAS_VARYING] ? TableForm::scaled : TableForm::buffer;
         break;
     }
     return one;
@@ -163,14 +155,7 @@ void group(Plan& plan, const std::vector<ShadeClass>& classes,
     }
 }
 
-void read_tables_from_buffer(ShadeClass& one) {
-    if (one.table != TableForm::constant) return;
-    one.table = TableForm::buffer;
-    one.roughness = glm::vec2(0.0f);
-}
-
 void share_pipelines(ShadeClass& one) {
-    read_tables_from_buffer(one);
     one.variant = shared_variant(one.variant);
     one.has_wide_components = one.table == TableForm::matched;
 }
@@ -181,8 +166,6 @@ void add_classes(const Scene& scene, Plan& plan) {
     for (const MaterialInstance& instance : plan.instances)
         classes.push_back(class_of(scene, plan, instance, fit_tables));
     group(plan, classes, [](ShadeClass&) {});
-    const auto constant_count = std::ranges::count(plan.classes, TableForm::constant, &ShadeClass::table);
-    if (size_t(constant_count) > MAX_CONSTANT_CLASSES) group(plan, classes, read_tables_from_buffer);
     // One class is left for the background.
     if (plan.classes.size() > shared::MAX_SHADE_CLASSES - 1) group(plan, classes, share_pipelines);
     if (plan.classes.size() > shared::MAX_SHADE_CLASSES - 1)
@@ -195,7 +178,7 @@ void add_classes(const Scene& scene, Plan& plan) {
                 plan.diffuse_environments.end())
             plan.diffuse_environments.push_back(instance.environment);
     for (ShadeClass& one : plan.classes) {
-        one.reason = describe(one, scene, plan, size_t(constant_count));
+        one.reason = describe(one, scene, plan);
         plan.has_lookups |= one.variant[shared::SPEC_LOBE_COUNT] > 0;
         plan.has_varying |= one.variant[shared::SPEC_HAS_VARYING];
         plan.has_coat |= one.variant[shared::SPEC_HAS_COAT];
@@ -219,12 +202,8 @@ void warn_of_nothing_drawn(const Scene& scene, Plan& plan) {
 
 } // namespace
 
-bool writes_out_samples(const PlanSettings& settings) {
-    return settings.sample_source != SampleSource::one_by_one && settings.sample_source != SampleSource::loop;
-}
-
 bool unrolls_samples(const Plan& plan, const ShadeClass& one) {
-    if (!writes_out_samples(plan.settings)) return false;
+    if (plan.settings.sample_loop != SampleLoop::written_out) return false;
     if (one.table != TableForm::buffer && one.table != TableForm::scaled) return false;
     return uint64_t(plan.sampler.samples) * one.variant[shared::SPEC_LOBE_COUNT] <=
            shared::MAX_UNROLLED_SAMPLES;

@@ -18,13 +18,11 @@
 
 namespace burnish {
 
-/// Where samples that a roughness fixes are read from.
-enum class SampleSource {
-    constants,  ///< of the pipeline, where they fit
-    buffer,     ///< by pipelines that all roughnesses share
-    meanwhile,  ///< the same, while the pipeline with constants is compiled
-    one_by_one, ///< a buffer, in a loop of single lookups, for drivers that compile slowly
-    loop        ///< a buffer, in a loop, for benchmarks
+/// How a kernel goes through the samples of a pattern.
+enum class SampleLoop {
+    written_out, ///< without a loop, where they are few
+    loop,        ///< for benchmarks
+    one_by_one   ///< a loop of single lookups, for drivers that compile slowly
 };
 
 struct PlanSettings {
@@ -32,7 +30,7 @@ struct PlanSettings {
     uint32_t spp = 1;
     PyramidFilter filter = PyramidFilter::gauss6;
     bool has_lookups = true; ///< false for benchmarks: shading alone, the picture means nothing
-    SampleSource sample_source = SampleSource::constants;
+    SampleLoop sample_loop = SampleLoop::written_out;
     bool has_lobes = true; ///< false for captured maps: diffuse, emission and the far environment only
     std::optional<float> display_exposure; ///< stops; of 8-bit sRGB in place of linear radiance
     LookupChoice lookup;
@@ -50,23 +48,22 @@ struct PassLine {
     std::string reason;
 };
 
-/// Where a class's samples come from: baked into the pipeline; a buffer; a buffer in units of a varying
-/// roughness; mixtures by the lobe's aspect, placed at every point, or by the
-/// view, placed for the material; the one lookup of a prefiltered map.
-enum class TableForm { none, constant, buffer, scaled, matched, matched_by_view, prefiltered };
+/// Where a class's samples come from: a buffer; a buffer in units of a varying roughness; mixtures by the
+/// lobe's aspect, placed at every point, or by the view, placed for the material; the one lookup of a
+/// prefiltered map.
+enum class TableForm { none, buffer, scaled, matched, matched_by_view, prefiltered };
 
 /// One specialised pipeline and what it is made for. Materials of equal ones share it.
 struct ShadeClass {
     Variant variant;
     TableForm table = TableForm::none;
     bool has_wide_components = false; ///< of matched tables: more points for a component's mean direction
-    glm::vec2 roughness{0.0f};        ///< of constant tables, else 0
     uint32_t map_set = 0;             ///< index into Plan::map_sets
     std::vector<uint32_t> instances;  ///< into Plan::instances
     std::string reason;
 
     bool can_share(const ShadeClass& other) const {
-        return variant == other.variant && table == other.table && roughness == other.roughness &&
+        return variant == other.variant && table == other.table &&
                has_wide_components == other.has_wide_components && map_set == other.map_set;
     }
 };
@@ -129,12 +126,6 @@ struct Plan {
     std::vector<PassLine> passes;
     std::vector<std::string> warnings;
 };
-
-/// More constant tables than this are read from a buffer instead: each is a pipeline to compile.
-constexpr size_t MAX_CONSTANT_CLASSES = 6;
-
-/// Whether the lookups of tables in a buffer may be written out: a driver has to compile them.
-bool writes_out_samples(const PlanSettings& settings);
 
 /// Whether tables that are read from a buffer are read without a loop: where all lookups of a point are few.
 bool unrolls_samples(const Plan& plan, const ShadeClass& one);

@@ -56,8 +56,6 @@ const char* table_name(TableForm form) {
     switch (form) {
     case TableForm::none:
         return "none";
-    case TableForm::constant:
-        return "constant";
     case TableForm::buffer:
         return "buffer";
     case TableForm::scaled:

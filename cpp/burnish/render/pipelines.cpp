@@ -1,8 +1,8 @@
 #include "burnish/render/pipelines.h"
 
 #include <algorithm>
+#include <span>
 #include <stdexcept>
-#include <vector>
 
 #include "spirv/resolve_accumulate_comp.h"
 #include "spirv/shade_background_comp.h"
@@ -10,10 +10,9 @@
 #include "spirv/shade_finish_tiles_comp.h"
 #include "spirv/shade_lookups_alone_comp.h"
 #include "spirv/shade_reference_comp.h"
-#include "spirv/shade_shade_buffer_comp.h"
-#include "spirv/shade_shade_constant_comp.h"
 #include "spirv/shade_shade_matched_by_view_comp.h"
 #include "spirv/shade_shade_matched_comp.h"
+#include "spirv/shade_shade_pattern_comp.h"
 #include "spirv/shade_shade_prefiltered_comp.h"
 #include "spirv/surface_surface_frag.h"
 #include "spirv/surface_surface_varying_frag.h"
@@ -31,10 +30,9 @@ const std::map<std::string, std::span<const uint32_t>>& spirv() {
         {"shade/classify_tiles.comp", shade_classify_tiles_comp_spv},
         {"shade/finish_tiles.comp", shade_finish_tiles_comp_spv},
         {"shade/reference.comp", shade_reference_comp_spv},
-        {"shade/shade_buffer.comp", shade_shade_buffer_comp_spv},
-        {"shade/shade_constant.comp", shade_shade_constant_comp_spv},
         {"shade/shade_matched.comp", shade_shade_matched_comp_spv},
         {"shade/shade_matched_by_view.comp", shade_shade_matched_by_view_comp_spv},
+        {"shade/shade_pattern.comp", shade_shade_pattern_comp_spv},
         {"shade/shade_prefiltered.comp", shade_shade_prefiltered_comp_spv},
         {"surface/surface.frag", surface_surface_frag_spv},
         {"surface/surface_varying.frag", surface_surface_varying_frag_spv},
@@ -47,8 +45,7 @@ const std::map<std::string, std::span<const uint32_t>>& spirv() {
 } // namespace
 
 Pipelines::Pipelines(vulkan::DevicePointer device, size_t budget)
-    : device_(std::move(device)), budget_(budget),
-      worker_([this](const ComputeKey& key) { compile_meanwhile(key); }) {}
+    : device_(std::move(device)), budget_(budget) {}
 
 void Pipelines::begin_picture() {
     const std::lock_guard lock(mutex_);
@@ -108,36 +105,6 @@ const vulkan::ComputePipeline& Pipelines::compute(const std::string& name,
     vulkan::ComputePipeline pipeline(device_, find_shader(name), constants);
     compile_ms_ += pipeline.compile_ms();
     return keep(compute_, key, std::move(pipeline));
-}
-
-bool Pipelines::request(std::span<const ComputeKey> keys) {
-    worker_.raise_error();
-    std::vector<ComputeKey> missing;
-    {
-        const std::lock_guard lock(mutex_);
-        for (const ComputeKey& key : keys) {
-            const auto found = compute_.find(key);
-            if (found == compute_.end())
-                missing.push_back(key);
-            else
-                found->second.last_picture = picture_; // the others will come to it
-        }
-    }
-    if (!missing.empty()) worker_.want(missing);
-    return missing.empty();
-}
-
-/// Callers may use and compile other pipelines at the same time.
-void Pipelines::compile_meanwhile(const ComputeKey& key) {
-    const vulkan::Shader* shader = nullptr;
-    {
-        const std::lock_guard lock(mutex_);
-        if (compute_.contains(key)) return;
-        shader = &find_shader(key.first);
-    }
-    vulkan::ComputePipeline pipeline(device_, *shader, key.second);
-    const std::lock_guard lock(mutex_);
-    keep(compute_, key, std::move(pipeline));
 }
 
 const vulkan::GraphicsPipeline& Pipelines::graphics(const std::string& vertex, const std::string& fragment,

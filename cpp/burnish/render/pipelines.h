@@ -1,17 +1,19 @@
 // All shaders of the engine by name, and the pipelines made from them, each once for its specialization
-// constants, while the caller waits or by a thread of their own. Those used longest ago are given back.
+// constants. Those used longest ago are given back.
 #pragma once
 
 #include <atomic>
 #include <map>
 #include <mutex>
-#include <span>
 #include <string>
+#include <utility>
 
-#include "burnish/render/compile_worker.h"
 #include "burnish/vulkan/pipeline.h"
 
 namespace burnish::render {
+
+/// Tells compute pipelines apart: name of the shader and what it is specialised by.
+using ComputeKey = std::pair<std::string, vulkan::SpecializationConstants>;
 
 /// Pipelines that a device keeps, where nobody asks for more or fewer. On lavapipe one of Regular(14) holds 7
 /// MB, one of Matched about 35 MB.
@@ -32,19 +34,11 @@ public:
     /// How many are kept now.
     size_t count() const;
 
-    /// `name` is the file under glsl/ without its ending: "shade/shade_buffer.comp". Throws std::logic_error
+    /// `name` is the file under glsl/ without its ending: "shade/shade_pattern.comp". Throws std::logic_error
     /// for one there is not.
     const vulkan::Shader& shader(const std::string& name);
     const vulkan::ComputePipeline& compute(const std::string& name,
                                            const vulkan::SpecializationConstants& constants = {});
-    /// Whether all of them are there. Those that are not are compiled meanwhile, the newest call's first.
-    /// Throws, once, what a compilation since the last call threw; it is tried again when it is asked for
-    /// again.
-    bool request(std::span<const ComputeKey> keys);
-    /// Waits until nothing asked for is left to compile.
-    void finish_compiling() { worker_.wait(); }
-    /// Compiles nothing more meanwhile; waits for what is being compiled.
-    void stop_compiling() { worker_.close(); }
     /// `settings.constants` and `key` tell pipelines of the same two shaders apart.
     const vulkan::GraphicsPipeline& graphics(const std::string& vertex, const std::string& fragment,
                                              const std::string& key,
@@ -64,7 +58,6 @@ private:
     using Cache = std::map<ComputeKey, Kept<Pipeline>>;
 
     const vulkan::Shader& find_shader(const std::string& name);
-    void compile_meanwhile(const ComputeKey& key);
     template <typename Pipeline>
     const Pipeline& keep(Cache<Pipeline>& cache, const ComputeKey& key, Pipeline pipeline);
 
@@ -76,7 +69,6 @@ private:
     std::map<std::string, vulkan::Shader> shaders_;
     Cache<vulkan::ComputePipeline> compute_;
     Cache<vulkan::GraphicsPipeline> graphics_; // named by both shaders
-    CompileWorker worker_;                     // last: its thread ends before what it uses
 };
 
 } // namespace burnish::render

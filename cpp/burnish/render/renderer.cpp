@@ -26,13 +26,12 @@ Renderer::Renderer(std::shared_ptr<vulkan::Device> device, const RendererSetting
       lookup_(choose_lookup(device_->info().is_software, settings.lookup,
                             device_->limits().maxTexelBufferElements,
                             device_->limits().maxStorageBufferRange / sizeof(glm::uvec4), settings.measured)),
-      compilation_(settings.compilation), pipelines_(device_, settings.pipeline_budget), map_tools_(device_),
-      placeholders_(device_), targets_(std::make_shared<TargetPool>(device_)) {}
+      pipelines_(device_, settings.pipeline_budget), map_tools_(device_), placeholders_(device_),
+      targets_(std::make_shared<TargetPool>(device_)) {}
 
 std::shared_ptr<Renderer> Renderer::open(std::shared_ptr<vulkan::Device> device,
                                          const RendererSettings& settings) {
-    // Another thread may have been in the driver, or compiling, at the fork: its locks are never let go
-    // there.
+    // Another thread may have been in the driver at the fork: its locks are never let go there.
     return {new Renderer(std::move(device), settings), [](Renderer* renderer) {
                 if (!renderer->device_->is_forked()) delete renderer;
             }};
@@ -90,6 +89,13 @@ GpuScene& Renderer::prepare_scene(const Scene& scene) {
     return *scenes_.back().scene;
 }
 
+Plan Renderer::make_plan(const Scene& scene, const PlanSettings& settings) {
+    PlanSettings for_device = settings;
+    for_device.lookup = lookup_;
+    if (device_->info().compiles_slowly) for_device.sample_loop = SampleLoop::one_by_one;
+    return burnish::make_plan(scene, for_device, suns_);
+}
+
 Frame Renderer::render(const Scene& scene, const Camera& camera, const RenderSettings& settings) {
     const auto lock = enter();
     return within_memory(message("a frame of ", settings.height, " x ", settings.width, " pixels"),
@@ -118,8 +124,8 @@ std::optional<Frame> Renderer::draw_once(const Scene& scene, const Camera& camer
     pipelines_.take_compile_ms();
     GpuScene& gpu_scene = prepare_scene(scene);
     const bool is_fused = settings.plan.display_exposure && settings.plan.spp == 1;
-    const auto [plan, tables] =
-        plan_shading(scene, settings.plan, {.is_display = is_fused, .counts_non_finite = counts_non_finite});
+    const Plan plan = make_plan(scene, settings.plan);
+    const ShadeTables tables = make_shade_tables(device_, scene, plan, tables_, diffuse_);
 
     Frame frame;
     frame.width = settings.width;

@@ -40,18 +40,9 @@ struct ShadePoints {
     std::span<const glm::vec3> views; ///< toward the eye
 };
 
-/// What a picture does that would be drawn by a pipeline with its samples as constants.
-enum class Compilation {
-    wait,       ///< until it is compiled
-    background, ///< reads the samples from a buffer, by a pipeline that all roughnesses share, while a thread
-                ///< compiles it
-    shared      ///< reads them from a buffer always
-};
-
 struct RendererSettings {
-    std::optional<MapLookup> lookup;           ///< none for what is best on the device
-    std::optional<LookupMeasurement> measured; ///< that decides which is best on a CPU device
-    Compilation compilation = Compilation::wait;
+    std::optional<MapLookup> lookup;                  ///< none for what is best on the device
+    std::optional<LookupMeasurement> measured;        ///< that decides which is best on a CPU device
     size_t pipeline_budget = DEFAULT_PIPELINE_BUDGET; ///< pipelines kept for later pictures, 1 or more
 };
 
@@ -66,12 +57,6 @@ public:
 
     const std::shared_ptr<vulkan::Device>& device() const { return device_; }
     const LookupChoice& lookup() const { return lookup_; }
-    Compilation compilation() const { return compilation_; }
-
-    /// Waits until no pipeline is left to be compiled in the background. Errors are the next picture's.
-    void finish_compiling();
-    /// Compiles nothing in the background any more, for when the process ends.
-    void stop_compiling() { pipelines_.stop_compiling(); }
 
     /// Pipelines kept for later pictures: those used longest ago go first.
     size_t pipeline_budget() const { return pipelines_.budget(); }
@@ -160,12 +145,6 @@ private:
     std::vector<std::shared_ptr<EnvironmentMaps>> prepare_maps(const Plan& plan,
                                                                std::vector<vulkan::PassTime>& times);
     Plan make_plan(const Scene& scene, const PlanSettings& settings);
-    struct ShadePlan {
-        Plan plan;
-        ShadeTables tables;
-    };
-    /// As `settings` ask for, or what can be drawn until that is compiled.
-    ShadePlan plan_shading(const Scene& scene, const PlanSettings& settings, ShadeTarget target);
     /// Makes room for one more.
     void forget_old_scenes();
     /// Gives back maps of living environments, those used longest ago first, while all are large.
@@ -182,7 +161,6 @@ private:
 
     std::shared_ptr<vulkan::Device> device_;
     LookupChoice lookup_;
-    Compilation compilation_;
     std::mutex mutex_;
     Pipelines pipelines_;
     MapTools map_tools_;

@@ -47,7 +47,8 @@ std::vector<glm::vec3> Renderer::shade_points(const std::shared_ptr<const Enviro
     scene.materials = {material};
     scene.materials[0].source.reset(); // points carry no texture coordinates: its factors hold everywhere
     scene.objects.emplace_back();
-    const auto [plan, tables] = plan_shading(scene, settings, {.is_points = true});
+    const Plan plan = make_plan(scene, settings);
+    const ShadeTables tables = make_shade_tables(device_, scene, plan, tables_, diffuse_);
     std::vector<vulkan::PassTime> times = tables.pass_times;
     const std::vector<std::shared_ptr<EnvironmentMaps>> maps = prepare_maps(plan, times);
 

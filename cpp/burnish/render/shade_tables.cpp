@@ -41,12 +41,6 @@ std::vector<uint32_t> unrolled_counts(const Scene& scene, const Plan& plan, Tabl
             count = std::max(count, uint32_t(table.entries.size()));
         }
     }
-    // What stands in for constants is for all roughnesses, and brushed lobes have a few samples more or less
-    // with each. Several lobes never are constants: they keep the pipeline that they have anyway.
-    if (plan.settings.sample_source == SampleSource::buffer ||
-        plan.settings.sample_source == SampleSource::meanwhile)
-        for (size_t k = 0; k < counts.size(); ++k)
-            if (plan.classes[k].variant[shared::SPEC_LOBE_COUNT] == 1) counts[k] = whole_phases(counts[k]);
     return counts;
 }
 
@@ -182,11 +176,6 @@ ShadeTables make_shade_tables(const vulkan::DevicePointer& device, const Scene& 
     tables.class_counts = class_counts;
     for (size_t k = 0; k < plan.classes.size(); ++k) {
         const ShadeClass& one = plan.classes[k];
-        SampleTable table;
-        if (one.table == TableForm::constant)
-            table = build_sample_table(plan.settings.sampler, one.roughness,
-                                       plan.map_sets[one.map_set].face_size);
-        tables.class_tables.push_back(std::move(table));
         std::string used;
         for (const uint32_t count : counts[k])
             used += message(used.empty() ? "" : " or ", count);

@@ -8,20 +8,18 @@
 #include "burnish/plan/plan.h"
 #include "burnish/render/diffuse_light.h"
 #include "burnish/render/table_cache.h"
-#include "burnish/sampler/sample_table.h"
 #include "burnish/vulkan/buffer.h"
 #include "burnish/vulkan/commands.h"
 #include "shared/records.h"
 
 namespace burnish::render {
 
-/// The buffers of one plan, and the sample table of each class of constant form.
+/// The buffers of one plan.
 struct ShadeTables {
     vulkan::Buffer materials, lobes, map_records, albedo;
     vulkan::TexelView material_rows, lobe_rows, map_rows, albedo_texels;
     std::shared_ptr<const SampleBuffer> samples;
-    std::vector<SampleTable> class_tables; ///< by class; of other forms empty
-    /// By class: entries of every table that it reads from the buffer; 0 where each has its own count.
+    /// By class: entries of every table that it reads; 0 where each has its own count.
     std::vector<uint32_t> class_counts;
     std::vector<std::string> samples_used; ///< by class: "19 (budget 20)", one text for each lobe, joined
     std::shared_ptr<const IrradianceBuffer> irradiance; ///< by environment

@@ -22,8 +22,6 @@ uint32_t code_of(MapLookup lookup) {
 
 uint32_t table_of(TableForm form, const SamplerFacts& sampler) {
     switch (form) {
-    case TableForm::constant:
-        return shared::TABLE_CONSTANT;
     case TableForm::scaled:
         return sampler.scaled_table;
     case TableForm::matched:
@@ -42,11 +40,9 @@ uint32_t table_of(TableForm form, const SamplerFacts& sampler) {
 const char* shader_of(TableForm form) {
     switch (form) {
     case TableForm::none:
-    case TableForm::constant:
-        return "shade/shade_constant.comp";
     case TableForm::buffer:
     case TableForm::scaled:
-        return "shade/shade_buffer.comp";
+        return "shade/shade_pattern.comp";
     case TableForm::matched:
         return "shade/shade_matched.comp";
     case TableForm::matched_by_view:
@@ -54,7 +50,7 @@ const char* shader_of(TableForm form) {
     case TableForm::prefiltered:
         return "shade/shade_prefiltered.comp";
     }
-    return "shade/shade_constant.comp";
+    return "shade/shade_pattern.comp";
 }
 
 /// What kernels of the plan's samplers and of the reference share.
@@ -73,27 +69,22 @@ vulkan::SpecializationConstants common_constants(const Plan& plan, uint32_t shad
     return constants;
 }
 
-/// `table`: of constant form; `buffer_count`: samples of each lobe in buffer or scaled form, 0 for a loop.
+/// `sample_count`: of each lobe in buffer or scaled form, 0 for a loop.
 void add_pattern_constants(vulkan::SpecializationConstants& constants, const ShadeClass& one,
-                           const Plan& plan, const SampleTable& table, uint32_t buffer_count) {
+                           const Plan& plan, uint32_t sample_count) {
     const SamplerFacts& sampler = plan.sampler;
     const bool is_scaled = one.table == TableForm::scaled;
     constants.set(shared::SPEC_TABLE, table_of(one.table, sampler))
         .set(shared::SPEC_FOOTPRINT, sampler.footprint)
         .set(shared::SPEC_WITHOUT_LOOKUPS, !plan.settings.has_lookups)
         .set(shared::SPEC_NORMALIZATION, is_scaled ? sampler.scaled_normalization : sampler.normalization);
-    if (sampler.placing == Placing::mixtures)
+    if (one.table == TableForm::matched || one.table == TableForm::matched_by_view)
         constants.set(shared::SPEC_SAMPLE_COUNT, sampler.samples)
             .set(shared::SPEC_WIDE_COMPONENTS, one.has_wide_components);
     if (one.table == TableForm::buffer || one.table == TableForm::scaled) {
-        constants.set(shared::SPEC_SAMPLE_COUNT, buffer_count);
-        if (plan.settings.sample_source == SampleSource::one_by_one) constants.set(shared::SPEC_PHASE, 1u);
+        constants.set(shared::SPEC_SAMPLE_COUNT, sample_count);
+        if (plan.settings.sample_loop == SampleLoop::one_by_one) constants.set(shared::SPEC_PHASE, 1u);
     }
-    if (one.table != TableForm::constant) return;
-    constants.set(shared::SPEC_SAMPLE_COUNT, uint32_t(table.entries.size()));
-    for (uint32_t k = 0; k < table.entries.size(); ++k)
-        for (uint32_t c = 0; c < 4; ++c)
-            constants.set(shared::SPEC_SAMPLES + 4 * k + c, table.entries[k][int(c)]);
 }
 
 } // namespace
@@ -101,8 +92,7 @@ void add_pattern_constants(vulkan::SpecializationConstants& constants, const Sha
 ComputeKey shade_key(const Plan& plan, const ShadeTables& tables, uint32_t shade_class, ShadeTarget target) {
     const ShadeClass& one = plan.classes[shade_class];
     vulkan::SpecializationConstants constants = common_constants(plan, shade_class, target, false);
-    add_pattern_constants(constants, one, plan, tables.class_tables[shade_class],
-                          tables.class_counts[shade_class]);
+    add_pattern_constants(constants, one, plan, tables.class_counts[shade_class]);
     constants
         .set(shared::SPEC_SAMPLE_TABLE_IS_STORED,
              tables.samples->elements.access() == vulkan::ElementAccess::storage)

@@ -44,7 +44,6 @@ struct SamplerFacts {
     bool takes_suns_out = false; ///< suns are split off the map and shaded directly
     bool needs_albedo = false;   ///< radiance is a mean times the lobe's albedo
     bool is_round = false;       ///< brushed lobes reflect as round ones
-    bool fits_constants = false; ///< its pattern fits into constants of a pipeline
     // Of patterns, as the shade kernel names them.
     uint32_t footprint = shared::FOOTPRINT_EXACT;
     uint32_t normalization = shared::NORMALIZATION_CONSTANT;

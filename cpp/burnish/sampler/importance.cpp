@@ -22,7 +22,6 @@ SamplerFacts facts(const Importance& sampler) {
             .diffuse = sampler.diffuse,
             .placing = Placing::pattern,
             .samples = sampler.samples,
-            .fits_constants = sampler.samples <= shared::MAX_CONSTANT_SAMPLES,
             .scaled_table = shared::TABLE_SCALED_IMPORTANCE};
 }
 

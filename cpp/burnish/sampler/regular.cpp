@@ -56,8 +56,6 @@ SamplerFacts facts(const Regular& sampler) {
             .placing = Placing::pattern,
             .samples = sampler.samples,
             .needs_albedo = is_furnace,
-            // The pattern may exceed its budget.
-            .fits_constants = sampler.samples + sampler.samples / 4 <= shared::MAX_CONSTANT_SAMPLES,
             .footprint = is_published ? shared::FOOTPRINT_PUBLISHED : shared::FOOTPRINT_EXACT,
             // Tables of one roughness hold the other two.
             .normalization = is_furnace ? shared::NORMALIZATION_FURNACE : shared::NORMALIZATION_CONSTANT,

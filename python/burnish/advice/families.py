@@ -30,7 +30,7 @@ class Family:
 FAMILIES: dict[str, Family] = {
     "matched": Family("matched:{}", COUNTS, (5, 20), splits_suns=True),
     "regular": Family("regular:{}", (8, 14, 19, 30, 48, 64), (8, 30)),
-    # Beyond 64 the table is read from a buffer: another line.
+    # Beyond 80 lookups are a loop: another line.
     "importance": Family(
         "importance:{}:fibonacci",
         (8, 14, 30, 64, 96, 128, 192, 256, 384, 512, 768, 1024),

@@ -198,7 +198,7 @@ def lookup_cases() -> list[HardCase]:
         _level_slope("levels 16 above the coarsest", "reads beyond the last level", 16.0),
         _counts("one sample", "a lobe of one lookup", 1, None),
         _counts("two samples", "the smallest mixture", 2, 2),
-        _counts("64 samples", "the last table of constants", 64, None),
+        _counts("64 samples", "the most of a mixture; patterns in a loop", 64, None),
         _counts("1024 samples", "the largest table", 1024, None),
         _threshold(1e-6, "half-vectors near the horizon"),
         _threshold(0.9, "a lobe cut to its peak"),

@@ -35,8 +35,8 @@ class Shot:
     settings : dict of dict
         Further arguments of samplers, by name.
     is_alone : bool
-        Whether the regular or importance table of a single lobe goes into the kernel, which is then compiled
-        for it alone. Else a second lobe of weight 0 keeps the kernel general: most cases share a few.
+        Whether a single lobe of regular or importance has the kernel of one lobe. Else a second lobe of
+        weight 0 is beside it: most cases share a few kernels.
     """
 
     light: str = "smooth"

@@ -81,7 +81,7 @@ def accuracy(
     repeats : int
         Timed runs of each sampler, at least 1.
     device : Device or None
-        One whose pictures are always the same, not ``compile="background"``. None: the best, opened once.
+        None: the best, opened once.
     journal : path or None
         File of JSON lines that gets every row when it is finished, with the pictures in a folder beside it.
         A later call with the same file takes up where this one stopped.

@@ -97,14 +97,6 @@ class Subject(Protocol):
         """Digest of all that decides the values: equal for equal subjects, in every process."""
 
 
-def _device_that_waits(device: _core.Device | None) -> _core.Device:
-    """Refuse a device whose pictures and times depend on what is compiled by then."""
-    chosen = device or default_device()
-    if chosen.compile == "background":
-        raise ValueError('device: expected one opened with compile="wait" or "shared", got "background"')
-    return chosen
-
-
 @contextmanager
 def _keeping_pipelines(device: _core.Device, sampler_count: int) -> Iterator[None]:
     before = device.pipeline_budget
@@ -154,7 +146,7 @@ class SceneSubject:
     ) -> None:
         self._scene, self._camera, self._size = scene, camera, size
         self._spp, self._filter = spp, filter
-        self._device = _device_that_waits(device)
+        self._device = device or default_device()
 
     def draw(self, sampler: Sampler, progress: Progress | None = None) -> Shot:
         """Render one frame."""
@@ -225,7 +217,7 @@ class PointsSubject:
 
     def __init__(self, points: Points, filter: Filter = "gauss6", device: _core.Device | None = None) -> None:
         self._points, self._filter = points, filter
-        self._device = _device_that_waits(device)
+        self._device = device or default_device()
 
     def draw(self, sampler: Sampler, progress: Progress | None = None) -> Shot:
         """Shade all points once; nothing is heard of it until it is done."""

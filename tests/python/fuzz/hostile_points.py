@@ -16,8 +16,8 @@ from tqdm import tqdm
 import burnish
 
 POINTS_PER_BLOCK = 1 << 18
-# Up to so many samples are constants of a pipeline made for the material, which takes a CPU device seconds.
-MOST_CONSTANT_SAMPLES = 64
+# Up to so many lookups of a point are written out: seconds on a CPU device for each kind of material.
+MOST_WRITTEN_OUT_SAMPLES = 80
 # Every texel for every point: larger faces would take minutes.
 LARGEST_QUADRATURE_FACE = 4
 SUN = 1e7
@@ -176,10 +176,11 @@ def shade_hostile(environment, material, sampler, points, filter, device, result
         result.complaints.append(f"{where}: {found}, {sampler}, {material}, {environment}, {filter}{first}")
 
 
-def needs_pipeline(sampler) -> bool:
-    """Say whether every material with one lobe gets a pipeline of its own."""
+def compiles_long(sampler) -> bool:
+    """Say whether lookups of a lobe are written out."""
     return (
-        isinstance(sampler, burnish.Regular | burnish.Importance) and sampler.samples <= MOST_CONSTANT_SAMPLES
+        isinstance(sampler, burnish.Regular | burnish.Importance)
+        and sampler.samples <= MOST_WRITTEN_OUT_SAMPLES
     )
 
 
@@ -187,7 +188,7 @@ def run_block(block: int, device: burnish.Device, result: Result, count: int = P
     """Shade the points of one block: one sampler, a few materials, each in a few environments."""
     rng = np.random.default_rng(block)
     sampler = random_sampler(rng, block)
-    material_count, environment_count = (1, 2) if needs_pipeline(sampler) else (3, 3)
+    material_count, environment_count = (1, 2) if compiles_long(sampler) else (3, 3)
     materials = [random_material(rng) for _ in range(material_count)]
     is_quadrature = getattr(sampler, "method", "") == "quadrature"
     largest_face = LARGEST_QUADRATURE_FACE if is_quadrature else 256

@@ -42,18 +42,6 @@ SHADE = """
     lobes = burnish.Material(lobes=[burnish.KurtLobe(roughness=0.2)])
     start(lambda: burnish.shade(scene.environment, lobes, burnish.Importance(100), up, across, up))
 """
-BACKGROUND = """
-    device = burnish.Device(compile="background")
-    count = iter(range(10**6))
-
-    def work():
-        lobes = [burnish.KurtLobe(roughness=0.1 + 0.001 * (next(count) % 500))]
-        one = burnish.Scene.sphere(burnish.Material(lobes=lobes))
-        one.environment = scene.environment
-        burnish.render(one, size=(16, 16), sampler=burnish.Regular(14), device=device)
-
-    start(work)
-"""
 STUDY = """
     def work():
         burnish.study.accuracy(
@@ -74,7 +62,6 @@ WORK = {
     "render with callbacks": CALLED_BACK,
     "callback that waits": WAITS_IN_PYTHON,
     "shade": SHADE,
-    "background compilation": BACKGROUND,
     "study": STUDY,
     "load": LOADS,
     "open": OPENS,

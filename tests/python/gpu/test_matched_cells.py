@@ -6,7 +6,6 @@
 import numpy as np
 import pytest
 
-import burnish
 from burnish.environments import spots
 from burnish.study.cells import BANDS, LOBES, Cell, as_rows, band_points, judge, limit, merge_kinds, rivals
 
@@ -14,16 +13,8 @@ from burnish.study.cells import BANDS, LOBES, Cell, as_rows, band_points, judge,
 BRUSHED = {name: LOBES[name] for name in ("m .2/.075", "m .3/.06")}
 
 
-@pytest.fixture(scope="module")
-def shared_pipelines(device):
-    """Compile the rivals once, not for every roughness."""
-    return burnish.Device(device.name, lookup=device.lookup, compile="shared")
-
-
-def test_no_published_sampler_errs_less_on_brushed_lobes(shared_pipelines):
-    cells = judge(
-        {"spots 41": lambda: spots(41, 256)}, BRUSHED, counts=(8,), points=80, device=shared_pipelines
-    )
+def test_no_published_sampler_errs_less_on_brushed_lobes(device):
+    cells = judge({"spots 41": lambda: spots(41, 256)}, BRUSHED, counts=(8,), points=80, device=device)
     assert len(cells) == len(BRUSHED) * len(BANDS)
     behind = [f"{cell.name}: {cell.ratio:.2f}" for cell in cells if cell.ratio > limit(LOBES[cell.lobe])]
     assert not behind
@@ -65,11 +56,11 @@ def test_long_lobes_may_lose_by_a_tenth():
     assert limit(LOBES["m .4/.03"]) == 1.1
 
 
-def test_truths_are_kept_for_later_runs(tmp_path, shared_pipelines):
+def test_truths_are_kept_for_later_runs(tmp_path, device):
     arguments = {"lobes": {"m .3": LOBES["m .3"]}, "counts": (5,), "points": 10}
     environments = {"spots": lambda: spots(1, 16)}
-    first = judge(environments, **arguments, device=shared_pipelines, truths=tmp_path)
+    first = judge(environments, **arguments, device=device, truths=tmp_path)
     (kept,) = tmp_path.iterdir()
     np.save(kept, 2 * np.load(kept))
-    second = judge(environments, **arguments, device=shared_pipelines, truths=tmp_path)
+    second = judge(environments, **arguments, device=device, truths=tmp_path)
     assert all(one.matched != other.matched for one, other in zip(first, second, strict=True))

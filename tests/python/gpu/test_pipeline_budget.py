@@ -9,7 +9,7 @@ import burnish
 from burnish import builtin, environments
 from burnish.study import accuracy
 
-SMALL = {"size": (8, 8), "sampler": burnish.Regular(2)}
+SMALL = {"size": (8, 8)}
 
 
 def resident_mb():
@@ -23,54 +23,48 @@ def sphere(roughness, environment, **lobe):
     return scene
 
 
-def draw(device, roughness, environment):
-    return burnish.render(sphere(roughness, environment), device=device, **SMALL)
+def draw(device, samples, environment):
+    """A picture whose shade pipeline is that of the count alone."""
+    sampler = burnish.Importance(samples)
+    return burnish.render(sphere(0.1, environment), sampler=sampler, device=device, **SMALL)
 
 
-def test_pictures_of_ever_new_roughnesses_keep_the_count_at_the_budget(uniform):
+def test_pictures_of_ever_new_counts_keep_the_count_at_the_budget(uniform):
     device = burnish.Device(pipeline_budget=8)
     assert device.pipeline_budget == 8 and device.pipeline_count == 0
     for k in range(8):
-        draw(device, 0.1 + 0.01 * k, uniform)
+        draw(device, 1 + k, uniform)
         assert device.pipeline_count <= 8 + 1, "and what the last picture added"
     assert device.pipeline_count >= 8
     device.pipeline_budget = 10
     for k in range(5):
-        draw(device, 0.3 + 0.01 * k, uniform)
+        draw(device, 20 + k, uniform)
     assert 10 <= device.pipeline_count <= 10 + 1
 
 
 def test_those_used_last_stay(uniform):
     device = burnish.Device(pipeline_budget=8)
-    draw(device, 0.1, uniform)
+    draw(device, 1, uniform)
     for k in range(6):
-        draw(device, 0.2 + 0.01 * k, uniform)
-        assert draw(device, 0.1, uniform).report.compile_ms == 0, "drawn in turns: never given back"
-    assert draw(device, 0.2, uniform).report.compile_ms > 0, "not drawn for long: made again"
+        draw(device, 2 + k, uniform)
+        assert draw(device, 1, uniform).report.compile_ms == 0, "drawn in turns: never given back"
+    assert draw(device, 2, uniform).report.compile_ms > 0, "not drawn for long: made again"
 
 
 def test_a_picture_keeps_all_it_uses_whatever_the_budget(uniform):
     device = burnish.Device(pipeline_budget=1)
-    lobes = [[burnish.KurtLobe(roughness=0.1 + 0.1 * k)] for k in range(4)]
-    scene = burnish.Scene.spheres([burnish.Material(lobes=one) for one in lobes], columns=2)
+    lobes = [burnish.KurtLobe(r0=r0, alpha=alpha) for r0 in (1.0, 0.5) for alpha in (0.0, 0.5)]
+    scene = burnish.Scene.spheres([burnish.Material(lobes=[one]) for one in lobes], columns=2)
     scene.environment = uniform
-    first = burnish.render(scene, device=device, **SMALL)
-    again = burnish.render(scene, device=device, **SMALL)
+    sampler = burnish.Regular(2)
+    first = burnish.render(scene, sampler=sampler, device=device, **SMALL)
+    assert len(first.report.classes) == 4
+    again = burnish.render(scene, sampler=sampler, device=device, **SMALL)
     assert again.report.compile_ms == 0
     np.testing.assert_array_equal(first.color, again.color)
-    draw(device, 0.7, uniform)
-    draw(device, 0.7, uniform)
+    draw(device, 7, uniform)
+    draw(device, 7, uniform)
     assert device.pipeline_count < 8
-
-
-def test_compilation_in_the_background_keeps_to_the_budget(uniform):
-    device = burnish.Device(compile="background", pipeline_budget=7)
-    for k in range(6):
-        draw(device, 0.1 + 0.01 * k, uniform)
-        device.finish_compiling()
-        assert device.pipeline_count <= 7 + 2
-    frame = draw(device, 0.15, uniform)
-    assert frame.report.classes[0]["table"] == "constant", "what was asked for last is there"
 
 
 @pytest.mark.parametrize(

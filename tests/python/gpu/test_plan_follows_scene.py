@@ -128,11 +128,10 @@ def test_many_materials_read_their_samples_from_a_buffer(device, many_materials,
     frame = burnish.render(many_materials, size=(64, 128), sampler=sampler, device=device)
     assert {one["table"] for one in frame.report.classes} == {"buffer"}
     assert frame.report.non_finite == 0
-    # One sphere alone has its samples as constants and looks the same.
+    # One sphere alone looks the same.
     alone = scene_of(many_materials.materials[20], environment=smooth64)
     matrix = many_materials.objects[20].world_from_object
     alone.objects[0].world_from_object = matrix
-    assert {one["table"] for one in plan_of(alone, sampler)["classes"]} == {"constant"}
     single = burnish.render(alone, many_materials.default_camera(), (64, 128), sampler, device)
     both = (single.alpha > 0) & np.isclose(single.depth, frame.depth)
     assert both.sum() > 10
@@ -146,7 +145,7 @@ def test_several_lobes_are_read_in_a_loop_only_where_they_are_many(spots64):
     assert "in a loop" not in few["reason"] and "in a loop" in many["reason"]
 
 
-def test_one_lobe_among_too_many_kinds_of_material_says_why_it_reads_a_buffer(spots64):
+def test_too_many_kinds_of_material_share_pipelines(spots64):
     kinds = itertools.product((0.0, 0.5, 0.3), (1.0, 0.5), (0.2, (0.2, 0.1)), (0.0, 0.5), (0.0, 1.0))
     others = [
         material(burnish.KurtLobe(roughness=m, r0=r0, alpha=alpha), LOBE, diffuse=diffuse, emissive=emissive)
@@ -155,8 +154,6 @@ def test_one_lobe_among_too_many_kinds_of_material_says_why_it_reads_a_buffer(sp
     scene = scene_of(material(LOBE), *others, environment=spots64)
     classes = plan_of(scene, burnish.Regular())["classes"]
     assert {one["table"] for one in classes} == {"buffer"} and len(classes) == 2
-    assert "too many kinds of material in the picture for a pipeline each" in classes[0]["reason"]
-    assert "several lobes" in classes[1]["reason"]
 
 
 def by_name(effects):

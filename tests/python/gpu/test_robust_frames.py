@@ -133,7 +133,7 @@ def faulty_faces():
 @pytest.mark.parametrize(
     "sampler",
     [burnish.Regular(), burnish.Regular(100), burnish.Importance(), burnish.Reference(0.05)],
-    ids=["constants", "buffer", "importance", "reference"],
+    ids=["written out", "loop", "importance", "reference"],
 )
 def test_faulty_texels_are_counted_and_stay_out_of_the_picture(device, sampler):
     environment = burnish.Environment.from_faces(faulty_faces())

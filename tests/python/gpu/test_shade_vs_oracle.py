@@ -133,7 +133,7 @@ def test_shade_adds_several_lobes(device, spots64, points, count, sampler):
 
 @pytest.mark.parametrize("samples", [5, 14, 50])
 def test_lobe_of_no_weight_changes_nothing(device, spots64, points, samples):
-    """One lobe has its samples as constants; two read them from a buffer, without a loop or in one."""
+    """Also where one lobe is without a loop and both are in one."""
     nothing = burnish.KurtLobe(roughness=(0.3, 0.05), weight=0.0)
     sampler = burnish.Regular(samples, normalization="published")
     alone = burnish.shade(spots64, lobe_material(ISOTROPIC), sampler, *points, device=device)

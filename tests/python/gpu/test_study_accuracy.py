@@ -122,16 +122,6 @@ def test_what_cannot_be_drawn_is_refused(device):
         measure(7, device)
 
 
-def test_a_device_that_compiles_in_the_background_is_refused(scene, device):
-    background = burnish.Device(name=device.name, compile="background")
-    refusal = 'device: expected one opened with compile="wait" or "shared", got "background"'
-    with pytest.raises(ValueError, match=refusal):
-        measure(scene, background)
-    points = burnish.study.Points(scene.environment, scene.materials[0], *[np.eye(3, dtype=np.float32)] * 3)
-    with pytest.raises(ValueError, match=refusal):
-        measure(points, background)
-
-
 def test_a_sweep_gives_the_rows_of_single_studies(device):
     materials = [burnish.Material(lobes=[burnish.KurtLobe(roughness=m)]) for m in (0.1, 0.4)]
     study = sweep(

@@ -116,7 +116,7 @@ def test_oracle_imports_numpy_only():
         ("plan", "#include <vulkan/vulkan.h>"),
         ("plan", '#include "burnish/render/renderer.h"'),
         ("sampler", '#include "burnish/plan/plan.h"'),
-        ("vulkan", '#include "spirv/shade_shade_buffer_comp.h"'),
+        ("vulkan", '#include "spirv/shade_shade_pattern_comp.h"'),
     ],
 )
 def test_a_forbidden_include_is_found(area, line):

@@ -1,6 +1,6 @@
-// The sample table of a single-lobe class as specialization constants: constants are what a CPU driver reads for free, every
-// other read in the sample loop is an eight-lane gather. Four floats a sample: see SampleTable in sample_table.h. An array of them
-// would be written out at every pixel (64 vec4, measured: 190 ms of a full 1080p frame), hence one name each.
+// The sample table of the lookups alone, as specialization constants, so that reading it is no part of what they measure: from the
+// buffer it takes a fifth as long again. Four floats a sample: see SampleTable in sample_table.h. An array of them would be written
+// out at every pixel, hence one name each.
 #define SAMPLE_CONSTANTS(k)                                                                                            \
     layout(constant_id = SPEC_SAMPLES + 4 * k) const float SAMPLE_##k##_X = 0.0;                                       \
     layout(constant_id = SPEC_SAMPLES + 4 * k + 1) const float SAMPLE_##k##_Y = 0.0;                                   \
