@@ -1,23 +1,9 @@
-// KurtLobe, Material and Camera: values that do not change once made, so that no copy can go stale unseen.
+// Material and Camera: values that do not change once made, so that no copy can go stale unseen.
 #include "burnish/scene/scene.h"
 #include "scene_values.h"
 
 namespace burnish {
 namespace {
-
-KurtLobe make_lobe(const Pair& roughness, const Color& r0, float alpha, const Color& weight, float rotation,
-                   bool conserve_energy) {
-    KurtLobe lobe{vec2_of(roughness), vec3_of(r0), alpha, vec3_of(weight), rotation, conserve_energy};
-    validate(lobe);
-    return lobe;
-}
-
-std::string repr(const KurtLobe& lobe) {
-    return message("KurtLobe(roughness=(", lobe.roughness.x, ", ", lobe.roughness.y, "), r0=(", lobe.r0.x,
-                   ", ", lobe.r0.y, ", ", lobe.r0.z, "), alpha=", lobe.alpha, ", weight=(", lobe.weight.x,
-                   ", ", lobe.weight.y, ", ", lobe.weight.z, "), rotation=", lobe.rotation,
-                   ", conserve_energy=", lobe.conserve_energy ? "True" : "False", ")");
-}
 
 Material make_material(const Color& diffuse, std::vector<Lobe> lobes, const Color& emissive, std::string name,
                        bool double_sided) {
@@ -73,51 +59,6 @@ Camera make_camera(const py::object& world_from_camera, float vertical_fov, floa
     return camera;
 }
 
-void bind_lobe(py::module_& m) {
-    py::class_<KurtLobe>(m, "KurtLobe",
-                         R"(One glossy lobe after Kurt et al. 2010. It does not change once made.
-
-f = weight F(u) D / (4 (o.h) ((i.n)(o.n))^alpha) with F(u) = r0 + (1 - r0)(1 - u)^5 and Beckmann's D.
-
-Parameters
-----------
-roughness : float or (float, float)
-    Beckmann slopes along tangent and bitangent, in 1e-6..1. One number is an isotropic lobe.
-r0 : float or (float, float, float)
-    Reflectance at normal incidence, in 0..1. 1 switches Fresnel off.
-alpha : float
-    Grazing exponent, in 0..1. Above 0.5 the model gains energy.
-weight : float or (float, float, float)
-    Colour, >= 0.
-rotation : float
-    Radians; turns the tangent counter-clockwise about the normal.
-conserve_energy : bool
-    Divide by the albedo for r0 = 1 where that exceeds 1. glTF's materials do; the published model does not.
-
-Raises
-------
-ValueError
-    If a number is out of its range.)")
-        .def(py::init(&make_lobe), py::arg("roughness") = Pair(0.2f), py::arg("r0") = Color(1.0f),
-             py::arg("alpha") = 0.0f, py::arg("weight") = Color(1.0f), py::arg("rotation") = 0.0f,
-             py::arg("conserve_energy") = false)
-        .def_property_readonly(
-            "roughness", [](const KurtLobe& l) { return tuple_of(l.roughness); },
-            "(float, float): Beckmann slopes along tangent and bitangent.")
-        .def_property_readonly(
-            "r0", [](const KurtLobe& l) { return tuple_of(l.r0); },
-            "(float, float, float): reflectance at normal incidence.")
-        .def_readonly("alpha", &KurtLobe::alpha, "Grazing exponent.")
-        .def_property_readonly(
-            "weight", [](const KurtLobe& l) { return tuple_of(l.weight); }, "(float, float, float): colour.")
-        .def_readonly("rotation", &KurtLobe::rotation, "Radians about the normal.")
-        .def_readonly("conserve_energy", &KurtLobe::conserve_energy,
-                      "Whether albedos above 1 are divided out.")
-        .def_property_readonly("is_anisotropic", &KurtLobe::is_anisotropic, "Whether the two slopes differ.")
-        .def_property_readonly("has_fresnel", &KurtLobe::has_fresnel, "Whether r0 is below 1 anywhere.")
-        .def("__repr__", &repr);
-}
-
 void bind_material(py::module_& m) {
     py::class_<Material>(m, "Material",
                          R"(Diffuse plus one to four glossy lobes. It does not change once made.
@@ -146,7 +87,7 @@ ValueError
             "diffuse", [](const Material& x) { return tuple_of(x.diffuse); },
             "(float, float, float): diffuse reflectance.")
         .def_property_readonly(
-            "lobes", [](const Material& x) { return py::tuple(py::cast(x.lobes)); }, "Tuple of KurtLobe.")
+            "lobes", [](const Material& x) { return py::tuple(py::cast(x.lobes)); }, "Tuple of lobes.")
         .def_property_readonly(
             "emissive", [](const Material& x) { return tuple_of(x.emissive); },
             "(float, float, float): radiance given off.")
@@ -218,7 +159,7 @@ ValueError
 } // namespace
 
 void bind_scene_parts(py::module_& m) {
-    bind_lobe(m);
+    bind_lobes(m);
     bind_material(m);
     bind_mesh(m);
     bind_camera(m);

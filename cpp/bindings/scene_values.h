@@ -85,8 +85,9 @@ py::object array_of(const std::vector<Vector>& vectors) {
                       {static_cast<py::ssize_t>(vectors.size()), COMPONENTS});
 }
 
-/// Binds KurtLobe, Material and Camera, and Mesh by bind_mesh.
+/// Binds lobes, Material and Camera, and Mesh by bind_mesh.
 void bind_scene_parts(py::module_& m);
+void bind_lobes(py::module_& m);
 void bind_mesh(py::module_& m);
 
 } // namespace burnish

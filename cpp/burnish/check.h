@@ -36,6 +36,12 @@ inline void require_positive(const std::string& name, float value) {
         throw std::invalid_argument(message(name, ": expected a finite number > 0, got ", value));
 }
 
+/// Throws std::invalid_argument unless the number is finite.
+inline void require_finite(const std::string& name, float value) {
+    if (!std::isfinite(value))
+        throw std::invalid_argument(message(name, ": expected a finite number, got ", value));
+}
+
 inline bool is_finite(const glm::vec3& v) {
     return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }

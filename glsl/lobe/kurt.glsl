@@ -3,6 +3,8 @@
 #ifndef BURNISH_LOBE_KURT
 #define BURNISH_LOBE_KURT
 
+#include "lobe/interface.glsl"
+
 const float PI = 3.14159265358979;
 // Cosines of the view below it are taken as this: the lobe's grazing power stays finite.
 const float MIN_COS = 1e-4;
@@ -57,6 +59,12 @@ float kurt_value(vec3 omega_i, vec3 omega_o, vec2 m, float alpha) {
     if (omega_i.z <= 0.0 || length2 < 1e-12) return 0.0;
     h *= inversesqrt(length2);
     return kurt_d(h, m) * grazing_term(omega_i.z, omega_o.z, alpha) / (4.0 * max(dot(omega_o, h), 1e-20));
+}
+
+// D cos_h^4 of a lobe that is wider by a light.
+float kurt_widened_d(Widened w, vec2 m) {
+    vec2 form = widened_form(w, m * m, 1.0);
+    return exp(-form.x) / (PI * sqrt(form.y));
 }
 
 #endif

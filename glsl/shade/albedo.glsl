@@ -3,7 +3,6 @@
 #ifndef BURNISH_SHADE_ALBEDO
 #define BURNISH_SHADE_ALBEDO
 
-#include "lobe/kurt.glsl"
 #include "shade/bindings.glsl"
 
 layout(constant_id = SPEC_CONSERVES_ENERGY) const bool CONSERVES_ENERGY = false;

@@ -10,6 +10,7 @@ layout(local_size_x = TILE_SIZE, local_size_y = TILE_SIZE) in;
 
 layout(constant_id = SPEC_SOURCE) const uint SOURCE = SOURCE_PIXELS;
 layout(constant_id = SPEC_LOBE_COUNT) const uint LOBE_COUNT = 1u;
+layout(constant_id = SPEC_LOBE_MODELS) const uint LOBE_MODELS = 0u;
 layout(constant_id = SPEC_HAS_FRESNEL) const bool HAS_FRESNEL = false;
 layout(constant_id = SPEC_ALPHA) const uint ALPHA = ALPHA_ZERO;
 layout(constant_id = SPEC_HAS_TANGENT) const bool HAS_TANGENT = false;

@@ -5,7 +5,7 @@
 #define BURNISH_SHADE_LOBE
 
 #include "lib/footprint.glsl"
-#include "lobe/kurt.glsl"
+#include "lobe/lobe.glsl"
 #include "shade/albedo.glsl"
 #include "shade/bindings.glsl"
 #include "lookup/map_lookup.glsl"
@@ -32,12 +32,15 @@ struct LobeView {
     vec3 omega_o;      // environment space
     vec3 local_o;      // omega_o in the frame
     float area_term;   // of the published footprint
+    uint model;        // MODEL_...
     vec2 roughness;
     float alpha;
     float cos_o_power; // max(cos_o, MIN_COS)^-alpha
     float threshold_log;
     float layer;
 };
+
+LobeShape shape_of(LobeView v) { return LobeShape(v.model, v.roughness, v.alpha); }
 
 struct LobeSums {
     vec3 base;          // sum of w L

@@ -7,7 +7,7 @@
 #extension GL_EXT_control_flow_attributes : require
 
 #include "lib/cube_map.glsl"
-#include "lobe/kurt.glsl"
+#include "lobe/lobe.glsl"
 #include "lib/random.glsl"
 #include "shade/albedo.glsl"
 #include "lookup/map_lookup.glsl"
@@ -23,15 +23,16 @@ struct LobeView {
     mat3 frame; // environment space
     vec3 local_o;
     SurfaceLobe lobe;
-    float alpha;
+    LobeShape shape;
     float layer;
 };
 
 // f cos_i, with Fresnel and weight, for a local direction and the half-vector between.
-vec3 lobe_value(LobeView v, vec3 local_i, vec3 h) {
+vec3 reflectance(LobeView v, vec3 local_i, vec3 h) {
     if (local_i.z <= 0.0 || h.z <= 0.0) return vec3(0.0);
     float cos_d = max(dot(v.local_o, h), 1e-20);
-    float value = kurt_d(h, v.lobe.roughness) * grazing_term(local_i.z, v.local_o.z, v.alpha) / (4.0 * cos_d);
+    float grazing = grazing_term(local_i.z, v.local_o.z, v.shape.alpha);
+    float value = lobe_d(v.shape, h) * lobe_rest(v.shape, local_i, v.local_o, cos_d, grazing);
     return value * (v.lobe.specular + v.lobe.grazing * schlick_weight(cos_d));
 }
 
@@ -74,7 +75,7 @@ vec3 quadrature(LobeView v, MapRecord map) {
     for (uint index = push.texel_begin; index < quadrature_end(map); ++index) {
         LitPoint point = lit_point(index, map);
         vec3 local_i = normalize(point.w) * v.frame;
-        sum += lobe_value(v, local_i, half_vector(local_i, v.local_o)) * point.light;
+        sum += reflectance(v, local_i, half_vector(local_i, v.local_o)) * point.light;
     }
     return sum;
 }
@@ -114,15 +115,15 @@ vec3 draw_texel(uint index, uint seed, MapRecord map) {
 }
 
 vec3 weigh(LobeView v, vec3 direction, vec3 local_i, vec3 h, MapRecord map) {
-    vec3 value = lobe_value(v, local_i, h);
-    float pdf = kurt_pdf(h, dot(v.local_o, h), v.lobe.roughness) + texel_pdf(direction, map);
+    vec3 value = reflectance(v, local_i, h);
+    float pdf = lobe_pdf(v.shape, v.local_o, h) + texel_pdf(direction, map);
     return value * look_up_finest(direction, v.layer) / max(pdf, 1e-20);
 }
 
 vec3 progressive(LobeView v, MapRecord map, uint seed) {
     vec3 sum = vec3(0.0);
     for (uint k = 0u; k < push.batch_size; ++k) {
-        vec3 h = sample_kurt(recurrence_2d(k, seed), v.lobe.roughness);
+        vec3 h = lobe_sample(v.shape, v.local_o, recurrence_2d(k, seed));
         vec3 local_i = 2.0 * dot(v.local_o, h) * h - v.local_o;
         vec3 term = vec3(0.0);
         if (dot(v.local_o, h) > 0.0 && local_i.z > 0.0) term = weigh(v, v.frame * local_i, local_i, h, map);
@@ -174,13 +175,13 @@ void main() {
         mat3 frame = lobe_frame(point_frame(point, which), record);
         v.local_o = point.omega_o * frame;
         v.frame = environment_from_world(map, frame);
-        v.alpha = record.alpha;
+        v.shape = LobeShape(lobe_model(which), v.lobe.roughness, record.alpha);
         v.layer = float(map.layer);
         uint seed = hash_uint(point.index * 4u + which) ^ hash_uint(push.batch + 0x51633e2du);
         vec3 light = IS_QUADRATURE ? quadrature(v, map) : progressive(v, map, seed);
         if (CONSERVES_ENERGY) {
             vec2 albedo = lobe_albedo(record, v.lobe.roughness, v.local_o);
-            light *= conserving_scale(record, albedo, pow(max(v.local_o.z, MIN_COS), -v.alpha));
+            light *= conserving_scale(record, albedo, pow(max(v.local_o.z, MIN_COS), -record.alpha));
         }
         batch += light;
     }

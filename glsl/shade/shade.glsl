@@ -22,6 +22,7 @@ vec3 shade_lobe(PointToShade point, MapRecord map, uint lobe_index, uint which) 
     v.local_o = point.omega_o * frame;
     v.frame = environment_from_world(map, frame);
     v.omega_o = environment_from_world(map, point.omega_o);
+    v.model = lobe_model(which);
     v.roughness = lobe.roughness;
     v.alpha = record.alpha;
     v.cos_o_power = cos_o_power(v.local_o.z, record.alpha);

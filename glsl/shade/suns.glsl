@@ -2,7 +2,7 @@
 #ifndef BURNISH_SHADE_SUNS
 #define BURNISH_SHADE_SUNS
 
-#include "lobe/kurt.glsl"
+#include "lobe/lobe.glsl"
 #include "shade/lobe.glsl"
 
 layout(constant_id = SPEC_SUN_COUNT) const uint SUN_COUNT = 0u;
@@ -12,8 +12,8 @@ const float SUN_MOST_STEP = 0.1414214; // of sqrt(2) deviations
 // a half-vector along the surface the slopes of all others.
 vec2 slope_step(vec3 step, vec2 slope) { return step.xy - slope * clamp(step.z, -SUN_MOST_STEP, SUN_MOST_STEP); }
 
-// Flux times f cos_i of a lobe that is wider by the sun. A variance v of directions is v/4 of half-vectors in the plane of view and light,
-// v/(4 (o.h)^2) across it: at grazing views much more. The lobe's slopes have m^2/2; C is twice the covariance of both.
+// Flux times f cos_i of a lobe that is wider by the sun. A variance v of directions is v/4 of half-vectors in the plane of view and
+// light, v/(4 (o.h)^2) across it: at grazing views much more.
 vec3 shade_sun(LobeView v, vec4 sun, vec3 flux, vec3 specular, vec3 grazing) {
     vec3 omega_i = sun.xyz * v.frame;
     vec3 h = omega_i + v.local_o;
@@ -26,16 +26,16 @@ vec3 shade_sun(LobeView v, vec4 sun, vec3 flux, vec3 specular, vec3 grazing) {
     across = normalize(dot(across, across) > 1e-8 ? across : vec3(0.0, h.z, -h.y));
     vec3 along = cross(across, h);
     float scale = sqrt(0.5 * sun.w) / h.z;
-    vec2 slope = h.xy / h.z;
-    vec2 s1 = slope_step(scale * along, slope), s2 = slope_step((scale / cos_d) * across, slope);
-    vec2 m2 = v.roughness * v.roughness, wider = s1 * s1 + s2 * s2;
-    float off = s1.x * s1.y + s2.x * s2.y, turn = s1.x * s2.y - s1.y * s2.x;
-    float determinant = m2.x * m2.y + m2.x * wider.y + m2.y * wider.x + turn * turn;
-    vec2 c = m2 + wider;
-    float exponent = (c.y * slope.x * slope.x - 2.0 * off * slope.x * slope.y + c.x * slope.y * slope.y) / determinant;
+    Widened w;
+    w.slope = h.xy / h.z;
+    vec2 s1 = slope_step(scale * along, w.slope), s2 = slope_step((scale / cos_d) * across, w.slope);
+    w.wider = s1 * s1 + s2 * s2;
+    w.off = s1.x * s1.y + s2.x * s2.y;
+    w.turn = s1.x * s2.y - s1.y * s2.x;
+    LobeShape shape = shape_of(v);
     float hz2 = h.z * h.z;
-    float density = exp(-exponent) / (PI * sqrt(determinant) * hz2 * hz2);
-    float value = density / (4.0 * cos_d) * cos_i_power(omega_i.z, v.alpha) * v.cos_o_power;
+    float powers = cos_i_power(omega_i.z, v.alpha) * v.cos_o_power;
+    float value = lobe_widened_d(shape, w) / (hz2 * hz2) * lobe_rest(shape, omega_i, v.local_o, cos_d, powers);
     vec3 fresnel = HAS_FRESNEL ? specular + grazing * schlick_weight(cos_d) : specular;
     return is_seen ? value * fresnel * flux : vec3(0.0);
 }

@@ -4,12 +4,12 @@
 
 #include "lib/display.glsl"
 #include "lib/frame.glsl"
-#include "lobe/kurt.glsl"
+#include "lobe/lobe.glsl"
 #include "shade/guard.glsl"
 
 struct SurfaceLobe {
     vec3 specular; // weight * r0
-    vec3 grazing;  // weight * (1 - r0)
+    vec3 grazing;  // weight * (f90 - r0)
     vec2 roughness;
 };
 
@@ -121,6 +121,8 @@ SurfaceLobe point_lobe(PointToShade point, uint lobe_index, uint which) {
     }
     return lobe;
 }
+
+uint lobe_model(uint which) { return LOBE_MODELS >> (MODEL_BITS * which) & ((1u << MODEL_BITS) - 1u); }
 
 // The frame of lobe `which`. A normal map bends the base alone: the clear coat, which is round, has its own normal.
 mat3 point_frame(PointToShade point, uint which) {

@@ -29,6 +29,7 @@ SHARED_CONST uint ALBEDO_CORRELATION_NODES = 6u;
 // The matched table is fitted at MATCHED_NODES aspects of the lobe on the map, evenly in their log up to 100, and read from
 // MATCHED_ROWS: so many that the nearest will do.
 SHARED_CONST uint MATCHED_NODES = 52u;
+SHARED_CONST uint MATCHED_STUDENT_NODES = 18u; // of lobes with tails
 SHARED_CONST uint MATCHED_ROWS = 1024u;
 SHARED_CONST float MATCHED_LOG2_LARGEST_RHO = 6.6438562f;
 // Tables of placed samples hold MATCHED_ROWS views of a round lobe; of a brushed one, up to an aspect, a grid of views with so many
@@ -111,6 +112,7 @@ SHARED_CONST uint SPEC_SAMPLE_COUNT = 12u;
 SHARED_CONST uint SPEC_SHADE_CLASS = 13u;
 SHARED_CONST uint SPEC_CLASS_COUNT = 14u;
 SHARED_CONST uint SPEC_HAS_COAT = 15u;
+SHARED_CONST uint SPEC_LOBE_MODELS = 16u; // four bits a lobe, MODEL_...
 SHARED_CONST uint SPEC_IS_QUADRATURE = 17u;
 SHARED_CONST uint SPEC_WITHOUT_LOOKUPS = 18u; // for benchmarks: shading alone
 SHARED_CONST uint SPEC_CONSERVES_ENERGY = 19u;
@@ -139,6 +141,9 @@ SHARED_CONST uint GUARD_COUNT = 3u;
 
 SHARED_CONST uint SOURCE_PIXELS = 0u;
 SHARED_CONST uint SOURCE_POINTS = 1u;
+// Models of lobes.
+SHARED_CONST uint MODEL_KURT = 0u;
+SHARED_CONST uint MODEL_BITS = 4u;
 SHARED_CONST uint ALPHA_ZERO = 0u;    // cos_i
 SHARED_CONST uint ALPHA_HALF = 1u;    // a square root
 SHARED_CONST uint ALPHA_GENERAL = 2u; // a power

@@ -7,6 +7,7 @@ from typing import Any, Literal, TypeAlias
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from burnish._lobes import KurtLobe as KurtLobe
 from burnish._samplers import Importance as Importance
 from burnish._samplers import Matched as Matched
 from burnish._samplers import Prefiltered as Prefiltered
@@ -88,33 +89,6 @@ class Device:
     def features(self) -> dict[str, Any]: ...
     def memory_statistics(self) -> dict[str, int]: ...
     def validation_messages(self) -> list[str]: ...
-
-class KurtLobe:
-    def __init__(
-        self,
-        roughness: _Pair = 0.2,
-        r0: _Color = 1.0,
-        alpha: float = 0.0,
-        weight: _Color = 1.0,
-        rotation: float = 0.0,
-        conserve_energy: bool = False,
-    ) -> None: ...
-    @property
-    def roughness(self) -> tuple[float, float]: ...
-    @property
-    def r0(self) -> tuple[float, float, float]: ...
-    @property
-    def alpha(self) -> float: ...
-    @property
-    def weight(self) -> tuple[float, float, float]: ...
-    @property
-    def rotation(self) -> float: ...
-    @property
-    def conserve_energy(self) -> bool: ...
-    @property
-    def is_anisotropic(self) -> bool: ...
-    @property
-    def has_fresnel(self) -> bool: ...
 
 class Material:
     def __init__(

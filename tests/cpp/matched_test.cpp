@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "burnish/light/sun_split.h"
+#include "burnish/lobe/lobe.h"
 #include "burnish/sampler/matched_table.h"
 #include "burnish/sampler/matched_view_table.h"
 #include "burnish/sampler/prefilter_table.h"
@@ -13,18 +14,30 @@
 namespace burnish {
 namespace {
 
+LobeShape kurt_shape(float x, float y) {
+    return facts(KurtLobe{.roughness = {x, y}}).shape;
+}
+
+/// A dielectric of each model.
+std::vector<LobeShape> dielectrics() {
+    const glm::vec3 r0(0.04f);
+    return {facts(KurtLobe{.roughness = glm::vec2(0.2f), .r0 = r0, .alpha = 0.5f}).shape};
+}
+
 TEST(MatchedTable, WeightsOfEveryRowSumToOne) {
-    for (const uint32_t count : MATCHED_COUNTS) {
-        const std::vector<glm::vec4> rows = matched_mixtures(count);
-        const uint32_t half = (count + 1) / 2;
-        ASSERT_EQ(rows.size(), size_t(shared::MATCHED_ROWS) * half);
-        for (uint32_t row = 0; row < shared::MATCHED_ROWS; ++row) {
-            double sum = 0.0;
-            for (uint32_t k = 0; k < half; ++k)
-                sum += (count % 2 && k == 0 ? 1.0 : 2.0) * double(rows[row * half + k].w);
-            EXPECT_NEAR(sum, 1.0, 5e-5) << count << " samples, row " << row;
+    for (const MixtureTable table : {MixtureTable{}, MixtureTable{Density::student, 0},
+                                     MixtureTable{Density::student, 1}, MixtureTable{Density::student, 2}})
+        for (const uint32_t count : MATCHED_COUNTS) {
+            const std::vector<glm::vec4> rows = matched_mixtures(count, table);
+            const uint32_t half = (count + 1) / 2;
+            ASSERT_EQ(rows.size(), size_t(shared::MATCHED_ROWS) * half);
+            for (uint32_t row = 0; row < shared::MATCHED_ROWS; ++row) {
+                double sum = 0.0;
+                for (uint32_t k = 0; k < half; ++k)
+                    sum += (count % 2 && k == 0 ? 1.0 : 2.0) * double(rows[row * half + k].w);
+                EXPECT_NEAR(sum, 1.0, 5e-5) << count << " samples, row " << row;
+            }
         }
-    }
 }
 
 TEST(MatchedTable, RowsAreEvenInTheLogOfTheAspect) {
@@ -35,20 +48,22 @@ TEST(MatchedTable, RowsAreEvenInTheLogOfTheAspect) {
 }
 
 TEST(MatchedViewTable, AViewAlongTheNormalReflectsAroundIt) {
-    const MatchedLobe lobe{8, 0.2f, 0.2f, 0.5f, 0.04f, 0.96f, true, 64};
-    const std::vector<glm::vec4> table = build_matched_view_table(lobe).entries;
-    const uint32_t entries = view_row_entries(lobe);
-    ASSERT_EQ(entries, 10u);
-    ASSERT_EQ(table.size(), size_t(shared::MATCHED_ROWS) * entries);
-    glm::vec2 mean(0.0f);
-    float weights = 0.0f;
-    for (uint32_t k = 0; k < 8; ++k) {
-        mean += table[k].z * glm::vec2(table[k]);
-        weights += table[k].z;
-        EXPECT_GT(table[k].z, 0.0f);
-        EXPECT_GE(table[k].w, 0.0f);
+    for (const LobeShape& shape : dielectrics()) {
+        const MatchedLobe lobe{8, shape, true, 64};
+        const std::vector<glm::vec4> table = build_matched_view_table(lobe).entries;
+        const uint32_t entries = view_row_entries(lobe);
+        ASSERT_EQ(entries, 10u);
+        ASSERT_EQ(table.size(), size_t(shared::MATCHED_ROWS) * entries);
+        glm::vec2 mean(0.0f);
+        float weights = 0.0f;
+        for (uint32_t k = 0; k < 8; ++k) {
+            mean += table[k].z * glm::vec2(table[k]);
+            weights += table[k].z;
+            EXPECT_GT(table[k].z, 0.0f);
+            EXPECT_GE(table[k].w, 0.0f);
+        }
+        EXPECT_NEAR(glm::length(mean), 0.0f, 1e-4f * weights) << shape.model->name;
     }
-    EXPECT_NEAR(glm::length(mean), 0.0f, 1e-4f * weights);
 }
 
 /// First entry of a row of a brushed lobe's table.
@@ -58,7 +73,7 @@ const glm::vec4* row_at(const std::vector<glm::vec4>& table, const MatchedLobe& 
 }
 
 TEST(MatchedViewTable, ViewsFromBothSidesAlongAnAxisHaveTheSameSamples) {
-    const MatchedLobe lobe{.samples = 7, .roughness_x = 0.2f, .roughness_y = 0.075f};
+    const MatchedLobe lobe{.samples = 7, .shape = kurt_shape(0.2f, 0.075f)};
     const std::vector<glm::vec4> table = build_matched_view_table(lobe).entries;
     const size_t nodes = shared::MATCHED_VIEW_NODES;
     ASSERT_EQ(table.size(), nodes * (2 * nodes - 1) * view_row_entries(lobe));
@@ -76,9 +91,9 @@ TEST(MatchedViewTable, ViewsFromBothSidesAlongAnAxisHaveTheSameSamples) {
 }
 
 TEST(MatchedViewTable, ABarelyBrushedLobeHasTheRoundOnesWeights) {
-    const MatchedLobe round{.samples = 5, .roughness_x = 0.3f, .roughness_y = 0.3f};
+    const MatchedLobe round{.samples = 5, .shape = kurt_shape(0.3f, 0.3f)};
     MatchedLobe brushed = round;
-    brushed.roughness_x = 0.3001f;
+    brushed.shape.width_x = 0.3001f;
     const std::vector<glm::vec4> one = build_matched_view_table(round).entries,
                                  other = build_matched_view_table(brushed).entries;
     const double radius = 67.0 / (shared::MATCHED_VIEW_NODES - 1); // between two rows of the round lobe
@@ -95,7 +110,7 @@ TEST(MatchedViewTable, ABarelyBrushedLobeHasTheRoundOnesWeights) {
 }
 
 TEST(MatchedViewTable, RowsAroundTheNormalDifferLittle) {
-    const MatchedLobe lobe{.samples = 14, .roughness_x = 0.99f, .roughness_y = 0.124f};
+    const MatchedLobe lobe{.samples = 14, .shape = kurt_shape(0.99f, 0.124f)};
     const std::vector<glm::vec4> table = build_matched_view_table(lobe).entries;
     const auto change = [&](int x, int y, int dx, int dy) {
         const glm::vec4 *one = row_at(table, lobe, x, y), *other = row_at(table, lobe, x + dx, y + dy);

@@ -1,11 +1,11 @@
 #include "burnish/lobe/albedo_table.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
 
 #include "burnish/cores.h"
+#include "burnish/lobe/quadrature.h"
 
 namespace burnish {
 namespace {
@@ -24,46 +24,6 @@ constexpr double LEAST_VARIANCE = 1e-8; ///< of nodes at zero
 constexpr double LEAST_COS_O =
     1e-6; ///< of nodes: below what kernels ask for, so that none stands in for another
 
-/// Nodes and weights of an integral over [0, 1].
-template <int count>
-struct Quadrature {
-    std::array<double, count> x, weight;
-};
-
-/// Gauss-Legendre: roots of the Legendre polynomial by Newton's method, from Chebyshev's.
-template <int count>
-Quadrature<count> gauss_legendre() {
-    Quadrature<count> result;
-    for (int k = 0; k < count; ++k) {
-        double x = std::cos(PI * (k + 0.75) / (count + 0.5)), slope = 1.0;
-        for (int step = 0; step < 10; ++step) {
-            double before = 1.0, here = x;
-            for (int n = 2; n <= count; ++n) {
-                const double next = ((2 * n - 1) * x * here - (n - 1) * before) / n;
-                before = here;
-                here = next;
-            }
-            slope = count * (x * here - before) / (x * x - 1.0);
-            x -= here / slope;
-        }
-        result.x[k] = 0.5 * (1.0 + x);
-        result.weight[k] = 1.0 / ((1.0 - x * x) * slope * slope);
-    }
-    return result;
-}
-
-/// Nodes crowded toward 0 by x -> x^3.
-template <int count>
-Quadrature<count> graded() {
-    Quadrature<count> result = gauss_legendre<count>();
-    for (int k = 0; k < count; ++k) {
-        const double x = result.x[k];
-        result.x[k] = x * x * x;
-        result.weight[k] *= 3.0 * x * x;
-    }
-    return result;
-}
-
 double power(double x, double exponent) {
     if (exponent == 1.0) return x;
     if (exponent == 0.5) return std::sqrt(x);
@@ -78,10 +38,7 @@ template <int radii>
 glm::dvec2 integrate_radius(glm::dvec3 omega_o, glm::dvec2 p, double alpha, double last_radius) {
     static const Quadrature<radii> nodes = graded<radii>();
     const double a = glm::dot(p, p), b = omega_o.x * p.x + omega_o.y * p.y;
-    const double root = std::sqrt(b * b + omega_o.z * omega_o.z * a);
-    // Without cancellation on either side of b = 0.
-    const double horizon = b > 0.0 ? (b + root) / (omega_o.z * a) : omega_o.z / (root - b);
-    const double last = std::min(horizon, last_radius);
+    const double last = std::min(horizon_radius(omega_o, p), last_radius);
     glm::dvec2 sum(0.0);
     for (int k = 0; k < radii; ++k) {
         const double s = last * (1.0 - nodes.x[k]);
@@ -147,13 +104,13 @@ glm::dvec2 directional_albedo(glm::dvec3 omega_o, glm::dvec2 roughness, double a
     return integrate<RADII, AZIMUTHS>(omega_o, roughness, alpha, LAST_RADIUS);
 }
 
-AlbedoTable build_albedo_table(glm::vec2 roughness, float alpha) {
+AlbedoTable build_albedo_table(const LobeShape& shape) {
     AlbedoTable table;
-    table.width_nodes = roughness.x == roughness.y ? 1 : WIDTH_NODES;
+    table.width_nodes = shape.is_round() ? 1 : WIDTH_NODES;
     table.entries.resize(table.width_nodes * ALBEDO_COS_NODES);
-    const glm::dvec2 m(roughness);
+    const glm::dvec2 m = shape.width();
     const double low = std::min(m.x, m.y), high = std::max(m.x, m.y);
-    for (uint32_t j = 0; j < table.width_nodes; ++j) {
+    for_each_on_cores(table.width_nodes, table.width_nodes > 1, [&](size_t j) {
         glm::dvec2 azimuth(1.0, 0.0);
         if (table.width_nodes > 1) {
             const double share = double(j) / (table.width_nodes - 1),
@@ -163,8 +120,8 @@ AlbedoTable build_albedo_table(glm::vec2 roughness, float alpha) {
         }
         for (uint32_t i = 0; i < ALBEDO_COS_NODES; ++i)
             table.entries[j * ALBEDO_COS_NODES + i] =
-                directional_albedo(view_at(square_node(i, ALBEDO_COS_NODES), azimuth), m, alpha);
-    }
+                shape.model->albedo(shape, view_at(square_node(i, ALBEDO_COS_NODES), azimuth));
+    });
     return table;
 }
 

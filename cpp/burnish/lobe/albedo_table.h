@@ -1,4 +1,4 @@
-// Directional albedo of a Kurt lobe, tabulated where a sampler's estimate is scaled to it.
+// Directional albedo of a lobe, tabulated where a sampler's estimate is scaled to it.
 #pragma once
 
 #include <cstdint>
@@ -6,13 +6,14 @@
 
 #include <glm/glm.hpp>
 
+#include "burnish/lobe/facts.h"
 #include "shared/constants.h"
 
 namespace burnish {
 
 using shared::ALBEDO_COS_NODES;
 
-/// E(omega_o) = weight (r0 E1 + (1 - r0) Es) cos_o^-alpha with
+/// E(omega_o) = weight (r0 E1 + (f90 - r0) Es), of Kurt's lobe times cos_o^-alpha, with
 ///   E1 = int D cos_i^(1-alpha) dh,   Es = int D (1 - o.h)^5 cos_i^(1-alpha) dh   over {h : o.h > 0, cos_i >
 ///   0}.
 /// Without cos_o^-alpha both stay bounded and smooth. Node i of the cosine is at cos_o =
@@ -25,9 +26,9 @@ struct AlbedoTable {
     std::vector<glm::vec2> entries; ///< [width][cos] -> (E1, Es)
 };
 
-AlbedoTable build_albedo_table(glm::vec2 roughness, float alpha);
+AlbedoTable build_albedo_table(const LobeShape& shape);
 
-/// (E1, Es) of round lobes whose roughness varies over a surface, [roughness][cos]: roughness k is
+/// (E1, Es) of Kurt's round lobes whose roughness varies over a surface, [roughness][cos]: roughness k is
 /// (k/(ALBEDO_ROUGHNESS_NODES-1))^2. Within 3e-3 of E from 3 degrees above the horizon.
 std::vector<glm::vec2> build_varying_albedo_table(float alpha);
 
@@ -38,7 +39,7 @@ std::vector<glm::vec2> build_varying_albedo_table(float alpha);
 /// Within 5e-3 of E for slopes from .02 to 1 and aspects up to 10, from 3 degrees above the horizon.
 std::vector<glm::vec2> build_brushed_albedo_table(float alpha);
 
-/// (E1, Es) for one omega_o (unit, z = normal, z > 0); the quadrature behind the tables.
+/// (E1, Es) of Kurt's lobe for one omega_o (unit, z = normal, z > 0); the quadrature behind the tables.
 glm::dvec2 directional_albedo(glm::dvec3 omega_o, glm::dvec2 roughness, double alpha);
 
 } // namespace burnish

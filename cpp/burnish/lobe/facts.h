@@ -1,6 +1,7 @@
-// Plan and renderer ask this of a lobe; each model answers for itself in its own file.
+// The engine asks this of a lobe; each model answers for itself in its own file.
 #pragma once
 
+#include <compare>
 #include <cstdint>
 
 #include <glm/glm.hpp>
@@ -10,16 +11,75 @@
 
 namespace burnish {
 
+/// A lobe may be as narrow as this: the slope's fourth power, in areas and variances, is still a normal
+/// float32.
+constexpr float MIN_LOBE_ROUGHNESS = 1e-6f;
+
+/// Of a lobe in its plane, with r in units of its widths: exp(-r^2)/pi, or Student's (1 + r^2)^-2/pi, which
+/// has a tail.
+enum class Density { gaussian, student };
+
+/// A place in a lobe's plane reflects this.
+struct LobePoint {
+    glm::dvec3 omega_i; ///< unit, in the lobe's axes
+    double base;        ///< f cos_i without Fresnel over density and stretch; 0 where nothing is reflected
+    double schlick;     ///< (1 - o.h)^5
+};
+
+struct LobeModel;
+
+/// All of a lobe that decides where it reflects light to: lobes of equal shapes share tables.
+struct LobeShape {
+    const LobeModel* model = nullptr;
+    float width_x = 0.3f, width_y = 0.3f; ///< along tangent and bitangent
+    float alpha = 0.0f;                   ///< power of cosines, of models that have it
+    /// F = specular + grazing (1 - o.h)^5 over all channels, of which the sum is 1: weighs directions.
+    float specular = 1.0f, grazing = 0.0f;
+
+    glm::dvec2 width() const { return {width_x, width_y}; }
+    bool is_round() const { return width_x == width_y; }
+    auto operator<=>(const LobeShape&) const = default;
+};
+
+/// A lobe is f cos_i di = base K d^2p, K its density and p a place of its plane in units of its widths:
+/// samplers place points there, and these functions say what a point is. Views are unit vectors in the lobe's
+/// axes.
+struct LobeModel {
+    const char* name;
+    uint32_t id; ///< MODEL_... of glsl/shared/constants.h
+    Density density;
+    /// A lobe's half-vectors are the same from everywhere, slopes p times the widths, and published samplers
+    /// say what to do with them.
+    bool has_fixed_half_vectors;
+    /// Power of cos_i in the base, which changes most from view to view.
+    double (*lit_exponent)(const LobeShape& shape);
+    LobePoint (*at)(const LobeShape& shape, glm::dvec3 omega_o, glm::dvec2 p);
+    /// Derivative of the direction at p, in any two unit vectors across it.
+    glm::dmat2 (*linear_map)(const LobeShape& shape, glm::dvec3 omega_o, glm::dvec2 p);
+    /// Solid angle of directions over the area of the plane between two places.
+    double (*stretch)(const LobeShape& shape, glm::dvec3 omega_o, glm::dvec2 one, glm::dvec2 other);
+    /// How far mixtures follow the moments of what is reflected, see weighted_lobe.h.
+    double (*moment_share)(const LobeShape& shape);
+    /// (E1, Es): integrals of f cos_i over light for F = 1 and for F = (1 - o.h)^5; of models with alpha
+    /// without cos_o^-alpha.
+    glm::dvec2 (*albedo)(const LobeShape& shape, glm::dvec3 omega_o);
+};
+
 struct LobeFacts {
-    glm::vec2 width{0.0f}; ///< slopes along tangent and bitangent
+    LobeShape shape;
     bool is_brushed = false;
     bool has_fresnel = false;
     bool gains_energy = false; ///< and is to be divided by its albedo where that exceeds 1
-    float alpha = 0.0f;        ///< exponent of the cosines
     uint32_t alpha_form = shared::ALPHA_ZERO;
-    /// F = specular + grazing (1 - o.h)^5 over all channels, of which the sum is 1: weighs directions.
-    float specular = 1.0f;
-    float grazing = 0.0f;
+
+    glm::vec2 width() const { return {shape.width_x, shape.width_y}; }
 };
+
+/// Weighs directions by the reflectances along the normal and along the surface of all channels.
+void set_fresnel(LobeFacts& facts, glm::vec3 weight, glm::vec3 r0, glm::vec3 f90);
+
+/// Fills what kernels read of every model; tables and traits of the plan's follow.
+shared::LobeRecord make_record(const LobeShape& shape, glm::vec3 weight, glm::vec3 r0, glm::vec3 f90,
+                               float rotation);
 
 } // namespace burnish

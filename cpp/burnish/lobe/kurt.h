@@ -11,9 +11,6 @@ namespace burnish {
 
 /// Below this slope a lobe is a mirror to any map the engine can hold: descriptions map to nothing narrower.
 constexpr float MIN_ROUGHNESS = 1e-3f;
-/// A lobe may be as narrow as this: the slope's fourth power, in areas and variances, is still a normal
-/// float32.
-constexpr float MIN_LOBE_ROUGHNESS = 1e-6f;
 
 /// One Kurt lobe (maths: section 1). f = weight F(u) D / (4 (o.h) ((i.n)(o.n))^alpha), F(u) = r0 + (1 - r0)(1
 /// - u)^5.

@@ -20,6 +20,14 @@ uint32_t alpha_form(const Subject& subject) {
     return all;
 }
 
+/// Four bits a lobe.
+uint32_t lobe_models(const Subject& subject) {
+    uint32_t models = 0;
+    for (size_t which = 0; which < subject.material.lobes.size(); ++which)
+        models |= facts(subject.material.lobes[which]).shape.model->id << (shared::MODEL_BITS * which);
+    return models;
+}
+
 bool has_fresnel(const Subject& subject) {
     return any_lobe(subject.material,
                     [&](const LobeFacts& lobe) { return lobe.has_fresnel || is_varying(subject.material); });
@@ -48,6 +56,8 @@ uint32_t shared_coat(uint32_t value, const Variant& variant) {
 constexpr std::array EFFECTS = {
     Effect{shared::SPEC_LOBE_COUNT, "lobe", "no material has a lobe", true, true,
            [](const Subject& one) { return uint32_t(one.material.lobes.size()); }, nullptr},
+    Effect{shared::SPEC_LOBE_MODELS, "other lobe models", "every lobe is of the first model", true, true,
+           lobe_models, nullptr},
     Effect{shared::SPEC_HAS_FRESNEL, "fresnel", "every lobe has r0 = 1", true, false,
            [](const Subject& one) { return uint32_t(has_fresnel(one)); }, on_of_lobes},
     Effect{shared::SPEC_ALPHA, "alpha", "every lobe has alpha = 0", true, false, alpha_form,

@@ -65,7 +65,7 @@ std::string why_at_every_point(const ShadeClass& one, const std::vector<const Ma
     if (one.variant[shared::SPEC_HAS_VARYING]) return "roughness varies over the surface";
     for (const Material* material : materials)
         for (const Lobe& lobe : material->lobes)
-            if (!fits_view_table(facts(lobe).width))
+            if (!fits_view_table(facts(lobe).width()))
                 return "a table by view would be too coarse for so brushed a lobe";
     return "tables by view of so many brushed lobes would take too much memory";
 }

@@ -93,10 +93,8 @@ bool fit_view_tables(const Scene& scene, const Plan& plan) {
     for (const MaterialInstance& instance : plan.instances)
         for (const Lobe& one : scene.materials[instance.material].lobes)
             if (const LobeFacts lobe = facts(one); lobe.is_brushed)
-                entries += view_table_entries({.samples = plan.sampler.samples,
-                                               .roughness_x = lobe.width.x,
-                                               .roughness_y = lobe.width.y,
-                                               .has_schlick = lobe.has_fresnel});
+                entries += view_table_entries(
+                    {.samples = plan.sampler.samples, .shape = lobe.shape, .has_schlick = lobe.has_fresnel});
     return entries <= MOST_VIEW_ENTRIES;
 }
 
@@ -105,12 +103,19 @@ bool fit_view_tables(const Scene& scene, const Plan& plan) {
 /// with as many points a component as the widest lobe needs.
 TableForm matched_form(const Material& material, bool fit_tables, ShadeClass& one) {
     const bool has_varying = one.variant[shared::SPEC_HAS_VARYING];
+    // Kernels that place samples at points know lobes of fixed half-vectors alone.
+    if (any_lobe(material, [](const LobeFacts& lobe) { return !lobe.shape.model->has_fixed_half_vectors; })) {
+        if (fit_tables) return TableForm::matched_by_view;
+        throw std::invalid_argument(
+            message("scene: expected brushed lobes whose tables by view have at most ", MOST_VIEW_ENTRIES,
+                    " entries in all, got more; fewer samples or \"", "importance\" need less"));
+    }
     if (!has_varying && !any_lobe(material, [&](const LobeFacts& lobe) {
-            return lobe.is_brushed && !(fit_tables && fits_view_table(lobe.width));
+            return lobe.is_brushed && !(fit_tables && fits_view_table(lobe.width()));
         }))
         return TableForm::matched_by_view;
     one.has_wide_components = has_varying || any_lobe(material, [](const LobeFacts& lobe) {
-                                  return std::min(lobe.width.x, lobe.width.y) > WIDE_LOBE;
+                                  return std::min(lobe.shape.width_x, lobe.shape.width_y) > WIDE_LOBE;
                               });
     return TableForm::matched;
 }

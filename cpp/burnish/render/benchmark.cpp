@@ -12,7 +12,8 @@ std::vector<double> Renderer::time_lookups(const std::shared_ptr<const Environme
                                            const Regular& sampler, float roughness, uint32_t repeats) {
     const auto lock = enter();
     constexpr uint32_t width = 1920, height = 1080;
-    const SampleTable table = build_sample_table(sampler, glm::vec2(roughness), environment->face_size());
+    const SampleTable table =
+        burnish::build_sample_table(sampler, glm::vec2(roughness), environment->face_size());
     const MapLookup lookup = lookup_.of(environment->face_size(), 1);
     EnvironmentMaps maps(map_tools_, std::span(&environment, 1), {PyramidFilter::gauss6, {}, lookup});
     const vulkan::Buffer radiance(device_, width * height * sizeof(glm::vec4),

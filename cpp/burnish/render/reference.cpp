@@ -44,7 +44,7 @@ bool prefers_quadrature(const Scene& scene, const Plan& plan, uint64_t points) {
     if (plan.has_varying || double(points) * double(texels_of(plan)) > MAX_QUADRATURE) return false;
     for (const MaterialInstance& instance : plan.instances)
         for (const Lobe& lobe : scene.materials[instance.material].lobes) {
-            const glm::vec2 width = facts(lobe).width;
+            const glm::vec2 width = facts(lobe).width();
             const float across =
                 float(plan.environments[instance.environment]->face_size()) * std::min(width.x, width.y);
             if (across < LEAST_TEXELS_ACROSS) return false;

@@ -36,7 +36,7 @@ std::vector<uint32_t> unrolled_counts(const Scene& scene, const Plan& plan, Tabl
         for (uint32_t which = 0; which < one.variant[shared::SPEC_LOBE_COUNT]; ++which) {
             const LobeFacts lobe = facts(lobe_of(scene.materials[instance.material], which, one));
             const SampleTable& table =
-                writer.table(one.table, lobe.width, plan.environments[instance.environment]->face_size());
+                writer.table(one.table, lobe.shape, plan.environments[instance.environment]->face_size());
             uint32_t& count = counts[instance.shade_class];
             count = std::max(count, uint32_t(table.entries.size()));
         }
@@ -135,7 +135,7 @@ ShadeTables make_shade_tables(const vulkan::DevicePointer& device, const Scene& 
             } else if (one.table == TableForm::prefiltered) {
                 counts[instance.shade_class].insert(1);
             } else if (one.table != TableForm::none) {
-                const auto samples = writer.samples(writer.table(one.table, lobe.width, face_size),
+                const auto samples = writer.samples(writer.table(one.table, lobe.shape, face_size),
                                                     class_counts[instance.shade_class]);
                 record.table_begin = samples.begin;
                 record.table_count = samples.count;
@@ -144,8 +144,8 @@ ShadeTables make_shade_tables(const vulkan::DevicePointer& device, const Scene& 
             if (plan.sampler.needs_albedo || one.variant[shared::SPEC_CONSERVES_ENERGY]) {
                 const bool is_varying_brushed = is_brushed(material) && !is_coat(which, one);
                 const auto albedo = one.variant[shared::SPEC_HAS_VARYING]
-                                        ? writer.varying_albedo(is_varying_brushed, lobe.alpha)
-                                        : writer.albedo(lobe.width, lobe.alpha);
+                                        ? writer.varying_albedo(is_varying_brushed, lobe.shape.alpha)
+                                        : writer.albedo(lobe.shape);
                 record.albedo_begin = albedo.begin;
                 record.albedo_width_nodes = albedo.count;
             }

@@ -22,12 +22,11 @@ void make_room(Map& tables, size_t most) {
 
 } // namespace
 
-const AlbedoTable& TableCache::albedo(glm::vec2 roughness, float alpha) {
-    const std::array<float, 3> key = {roughness.x, roughness.y, alpha};
-    auto found = albedo_.find(key);
+const AlbedoTable& TableCache::albedo(const LobeShape& shape) {
+    auto found = albedo_.find(shape);
     if (found == albedo_.end()) {
         make_room(albedo_, MOST_ALBEDO_TABLES);
-        found = albedo_.emplace(key, build_albedo_table(roughness, alpha)).first;
+        found = albedo_.emplace(shape, build_albedo_table(shape)).first;
     }
     return found->second;
 }

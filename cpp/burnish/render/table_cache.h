@@ -28,7 +28,7 @@ struct KeptViewTable {
 class TableCache {
 public:
     /// Until the next table of the kind is asked for, as references below.
-    const AlbedoTable& albedo(glm::vec2 roughness, float alpha);
+    const AlbedoTable& albedo(const LobeShape& shape);
     /// Of all round lobes, or of all brushed ones.
     const std::vector<glm::vec2>& varying_albedo(float alpha, bool is_brushed);
     SampleEntries mixtures(uint32_t count);
@@ -40,7 +40,7 @@ public:
     void forget_buffers() { samples_.reset(); }
 
 private:
-    std::map<std::array<float, 3>, AlbedoTable> albedo_;
+    std::map<LobeShape, AlbedoTable> albedo_;
     std::map<std::pair<float, bool>, std::vector<glm::vec2>> varying_albedo_;
     std::map<uint32_t, SampleEntries> mixtures_;
     std::map<MatchedLobe, KeptViewTable> view_tables_;

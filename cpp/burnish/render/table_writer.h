@@ -2,10 +2,10 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <map>
 #include <memory>
 #include <optional>
+#include <tuple>
 #include <vector>
 
 #include "burnish/plan/plan.h"
@@ -28,14 +28,14 @@ public:
 
     TableWriter(const Plan& plan, TableCache& cache) : plan_(plan), cache_(cache) {}
 
-    const SampleTable& table(TableForm form, glm::vec2 roughness, uint32_t face_size) {
-        const std::array<float, 4> key = {float(form), roughness.x, roughness.y, float(face_size)};
+    const SampleTable& table(TableForm form, const LobeShape& shape, uint32_t face_size) {
+        const std::tuple key(form, of_any_colour(shape), face_size);
         auto found = tables_.find(key);
         if (found == tables_.end())
             found = tables_
                         .emplace(key, form == TableForm::scaled
                                           ? build_scaled_table(plan_.settings.sampler, face_size)
-                                          : build_sample_table(plan_.settings.sampler, roughness, face_size))
+                                          : build_sample_table(plan_.settings.sampler, shape, face_size))
                         .first;
         return found->second;
     }
@@ -65,8 +65,7 @@ public:
 
     /// First entry of the lookups of one lobe by view, its columns and what its slopes drift by.
     ViewRange view_table(uint32_t count, const LobeFacts& lobe, bool has_schlick, uint32_t face_size) {
-        const MatchedLobe key{count,         lobe.width.x, lobe.width.y, lobe.alpha,
-                              lobe.specular, lobe.grazing, has_schlick,  face_size};
+        const MatchedLobe key{count, lobe.shape, has_schlick, face_size};
         auto found = view_ranges_.find(key);
         if (found == view_ranges_.end()) {
             const KeptViewTable table = cache_.view_table(key);
@@ -78,22 +77,30 @@ public:
     }
 
     /// First entry and azimuth nodes of the albedo table of a lobe of one roughness.
-    Range albedo(glm::vec2 roughness, float alpha) {
-        const AlbedoTable& table = cache_.albedo(roughness, alpha);
-        return albedo({roughness.x, roughness.y, alpha}, table.entries, table.width_nodes);
+    Range albedo(const LobeShape& shape) {
+        const LobeShape key = of_any_colour(shape);
+        const AlbedoTable& table = cache_.albedo(key);
+        return albedo(key, table.entries, table.width_nodes);
     }
 
     /// The same of lobes whose roughness varies; brushed ones have more than one azimuth.
     Range varying_albedo(bool is_brushed, float alpha) {
         const float nodes = is_brushed ? 2.0f : 1.0f;
-        return albedo({0.0f, nodes, alpha}, cache_.varying_albedo(alpha, is_brushed), uint32_t(nodes));
+        return albedo({.width_x = 0.0f, .width_y = nodes, .alpha = alpha},
+                      cache_.varying_albedo(alpha, is_brushed), uint32_t(nodes));
     }
 
     std::vector<SampleEntries> sample_tables;
     std::vector<glm::vec4> albedo_entries;
 
 private:
-    Range albedo(const std::array<float, 3>& key, const std::vector<glm::vec2>& table, uint32_t nodes) {
+    static LobeShape of_any_colour(LobeShape shape) {
+        shape.specular = 1.0f;
+        shape.grazing = 0.0f;
+        return shape;
+    }
+
+    Range albedo(const LobeShape& key, const std::vector<glm::vec2>& table, uint32_t nodes) {
         auto found = albedo_ranges_.find(key);
         if (found == albedo_ranges_.end()) {
             found = albedo_ranges_.emplace(key, Range{uint32_t(albedo_entries.size()), nodes}).first;
@@ -115,9 +122,9 @@ private:
     uint32_t entry_count_ = 0;
     std::optional<uint32_t> mixtures_begin_;
     std::map<MatchedLobe, ViewRange> view_ranges_;
-    std::map<std::array<float, 4>, SampleTable> tables_;
+    std::map<std::tuple<TableForm, LobeShape, uint32_t>, SampleTable> tables_;
     std::map<std::pair<const SampleTable*, uint32_t>, Range> ranges_;
-    std::map<std::array<float, 3>, Range> albedo_ranges_;
+    std::map<LobeShape, Range> albedo_ranges_;
 };
 
 } // namespace burnish::render

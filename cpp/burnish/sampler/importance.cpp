@@ -41,6 +41,18 @@ SampleTable build_sample_table(const Importance& sampler, glm::vec2 roughness, u
     return table;
 }
 
+PlanePoints plane_points(const Importance& sampler, const LobeShape& shape) {
+    PlanePoints points;
+    for (const glm::dvec2& x : unit_points(sampler.points, sampler.samples)) {
+        // A Gaussian's share lies outside of its radius, Student's inside: neither has to be infinite.
+        const bool is_gaussian = shape.model->density == Density::gaussian;
+        const double r2 = is_gaussian ? -std::log(x.x) : x.x / (1.0 - x.x);
+        points.places.push_back(std::sqrt(r2) * glm::dvec2(std::cos(2 * PI * x.y), std::sin(2 * PI * x.y)));
+        points.areas.push_back(1.0 / (sampler.samples * plane_density(shape.model->density, r2)));
+    }
+    return points;
+}
+
 SampleTable build_scaled_table(const Importance& sampler, uint32_t face_size) {
     const double texels = texels_of_face(face_size, sampler.mip_bias);
     SampleTable table;

@@ -20,5 +20,7 @@ SamplerFacts facts(const Importance& sampler);
 
 SampleTable build_sample_table(const Importance& sampler, glm::vec2 roughness, uint32_t face_size);
 SampleTable build_scaled_table(const Importance& sampler, uint32_t face_size);
+/// Points in proportion to the density of the lobe's plane.
+PlanePoints plane_points(const Importance& sampler, const LobeShape& shape);
 
 } // namespace burnish

@@ -1,8 +1,10 @@
 #include "burnish/sampler/matched_table.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <iterator>
+#include <limits>
 
 #include "burnish/sampler/sampler.h"
 #include "shared/constants.h"
@@ -10,40 +12,75 @@
 namespace burnish {
 namespace {
 
-constexpr double MIXTURES[] = {
+constexpr double GAUSSIAN[] = {
 #include "matched.txt"
 };
+constexpr double STUDENT[] = {
+#include "student.txt"
+};
 
-constexpr uint32_t entries_of(uint32_t count) {
-    return shared::MATCHED_NODES * ((count + 1) / 2);
+/// Windows R of Student's tables, what of the density each leaves, and the widths up to which lobes take
+/// them.
+struct Window {
+    double radius, share, most_width;
+};
+constexpr double NONE = std::numeric_limits<double>::infinity();
+constexpr std::array<Window, 3> WINDOWS = {
+    {{NONE, 1.0, 0.25}, {2.7, 0.8406213, 0.4}, {1.4, 0.6614072, NONE}}};
+/// A window's quotient is not let grow beyond exp of this.
+constexpr double MOST_EXPONENT = 2.5;
+
+constexpr uint32_t entries_of(uint32_t nodes, uint32_t count) {
+    return nodes * ((count + 1) / 2);
 }
 
-constexpr uint32_t entries_of_all() {
+constexpr uint32_t entries_of_all(uint32_t nodes) {
     uint32_t total = 0;
     for (const uint32_t count : MATCHED_COUNTS)
-        total += entries_of(count);
+        total += entries_of(nodes, count);
     return total;
 }
-static_assert(std::size(MIXTURES) == 4 * entries_of_all(), "matched.txt has not the rows of MATCHED_COUNTS");
+static_assert(std::size(GAUSSIAN) == 4 * entries_of_all(shared::MATCHED_NODES),
+              "matched.txt has not the rows of MATCHED_COUNTS");
+static_assert(std::size(STUDENT) == 4 * WINDOWS.size() * entries_of_all(shared::MATCHED_STUDENT_NODES),
+              "student.txt has not the rows of MATCHED_COUNTS and WINDOWS");
 
 } // namespace
+
+MixtureTable MixtureTable::of(Density density, double width) {
+    MixtureTable table{density, 0};
+    if (density == Density::student)
+        while (width > WINDOWS[table.window].most_width)
+            ++table.window;
+    return table;
+}
+
+double MixtureTable::ratio(double lobe_r2, double mixture_r2) const {
+    if (density == Density::gaussian) return std::exp(mixture_r2 - lobe_r2);
+    const Window& one = WINDOWS[window];
+    const double quotient = (1.0 + mixture_r2) / (1.0 + lobe_r2);
+    return quotient * quotient * one.share *
+           std::exp(std::min(0.5 * mixture_r2 / (one.radius * one.radius), MOST_EXPONENT));
+}
 
 uint32_t matched_row(double rho) {
     const double last = shared::MATCHED_ROWS - 1;
     return uint32_t(std::clamp(std::log2(rho) * last / shared::MATCHED_LOG2_LARGEST_RHO + 0.5, 0.0, last));
 }
 
-std::vector<glm::vec4> matched_mixtures(uint32_t count) {
-    const double* fitted = MIXTURES;
+std::vector<glm::vec4> matched_mixtures(uint32_t count, MixtureTable table) {
+    const bool is_student = table.density == Density::student;
+    const uint32_t nodes = is_student ? shared::MATCHED_STUDENT_NODES : shared::MATCHED_NODES;
+    const double* fitted = is_student ? STUDENT + size_t(4) * table.window * entries_of_all(nodes) : GAUSSIAN;
     for (const uint32_t one : MATCHED_COUNTS) {
         if (one == count) break;
-        fitted += 4 * entries_of(one);
+        fitted += 4 * entries_of(nodes, one);
     }
     const uint32_t half = (count + 1) / 2;
     std::vector<glm::vec4> result;
     for (uint32_t row = 0; row < shared::MATCHED_ROWS; ++row) {
-        const double at = double(row) * (shared::MATCHED_NODES - 1) / (shared::MATCHED_ROWS - 1);
-        const uint32_t node = std::min(uint32_t(at), shared::MATCHED_NODES - 2);
+        const double at = double(row) * (nodes - 1) / (shared::MATCHED_ROWS - 1);
+        const uint32_t node = std::min(uint32_t(at), nodes - 2);
         const double share = at - node;
         for (uint32_t k = 0; k < half; ++k) {
             glm::dvec4 entry;

@@ -19,49 +19,28 @@ namespace {
 constexpr double LEAST_LIT = 1e-8;  ///< trace of a cosine that kernels leave below the horizon
 constexpr double LEAST_GAIN = 1e-9; ///< a component that reflects less lies below the horizon
 
-/// Components of one view lie here: a slope center + y1 axis1 + y2 axis2 is a half-vector n + slope.
+/// Components of one view lie here: center + y1 axis1 + y2 axis2 is a place in the lobe's plane.
 struct Place {
     glm::dvec2 center, axis1, axis2;
-    double rho; ///< aspect of the axes once they are mirrored
+    double rho; ///< aspect of the axes once they are reflected
 };
 
-/// Derivative of the reflection at the half-vector of a slope, for changes of it along two columns (maths:
-/// section 6): in the basis of tangents in the plane of o and h and across it, 2 dh and 2 (o.h) dh.
-glm::dmat2 reflection_map(glm::dvec3 omega_o, glm::dvec2 slope, const glm::dmat2& columns) {
-    const double length = std::sqrt(1.0 + glm::dot(slope, slope));
-    const glm::dvec3 h = glm::dvec3(slope, 1.0) / length;
-    const double o_h = glm::dot(omega_o, h);
-    glm::dvec3 t = omega_o - o_h * h;
-    t = glm::normalize(glm::length(t) > 1e-9 ? t : glm::cross(glm::dvec3(0.0, 1.0, 0.0), h));
-    const glm::dvec3 b = glm::cross(h, t);
-    glm::dmat2 map;
-    for (int k = 0; k < 2; ++k) {
-        // A change along h has no part along t and b.
-        const glm::dvec3 change = glm::dvec3(columns[k], 0.0) / length;
-        map[k] = {2.0 * glm::dot(t, change), 2.0 * o_h * glm::dot(b, change)};
-    }
-    return map;
-}
-
-/// Over what is reflected of the lobe, moment_share of the way there. (2 S)^1/2 carries the lobe to
+/// Over what is reflected of the lobe, a share of the way there. (2 S)^1/2 carries the lobe to
 /// where it lies, S its covariance; principal axes of the reflection there are those of V of the singular
 /// value decomposition. Of round lobes they are the plane of view and across it, whichever is longer: around
 /// the normal of a wide one that changes, and a step would show.
-Place place_over(const MatchedLobe& lobe, const SquareView& view, const Moments& moments) {
-    const bool is_round = view_columns(lobe) == 1;
-    const glm::dvec2 roughness(lobe.roughness_x, lobe.roughness_y);
-    const double share = moment_share(lobe);
+Place place_over(const LobeShape& shape, const SquareView& view, const Moments& moments, double share) {
     const glm::dvec3 doubled = 2.0 * share * moments.covariance + (1.0 - share) * glm::dvec3(1.0, 0.0, 1.0);
     const double determinant = std::sqrt(doubled.x * doubled.z - doubled.y * doubled.y);
     const double scale = 1.0 / std::sqrt(doubled.x + doubled.z + 2.0 * determinant);
-    const glm::dmat2 columns(roughness * scale * glm::dvec2(doubled.x + determinant, doubled.y),
-                             roughness * scale * glm::dvec2(doubled.y, doubled.z + determinant));
+    const glm::dmat2 root(scale * glm::dvec2(doubled.x + determinant, doubled.y),
+                          scale * glm::dvec2(doubled.y, doubled.z + determinant));
     Place place;
-    place.center = share * roughness * moments.mean;
-    const glm::dmat2 map = reflection_map(view.omega_o, place.center, columns);
+    place.center = share * moments.mean;
+    const glm::dmat2 map = shape.model->linear_map(shape, view.omega_o, place.center) * root;
     const glm::dvec2 e = view.e;
     glm::dvec2 v1 = e;
-    if (is_round) {
+    if (shape.is_round()) {
         place.rho = std::max(glm::length(map * e) / glm::length(map * glm::dvec2(-e.y, e.x)), 1.0);
     } else {
         const double p = glm::dot(map[0], map[0]), s = glm::dot(map[1], map[1]);
@@ -73,8 +52,8 @@ Place place_over(const MatchedLobe& lobe, const SquareView& view, const Moments&
         }
         place.rho = std::max((0.5 * (p + s) + radius) / std::abs(glm::determinant(map)), 1.0);
     }
-    place.axis1 = columns * v1;
-    place.axis2 = columns * glm::dvec2(-v1.y, v1.x);
+    place.axis1 = root * v1;
+    place.axis2 = root * glm::dvec2(-v1.y, v1.x);
     return place;
 }
 
@@ -104,11 +83,11 @@ std::vector<Point> hexagon_points(double step, double reach) {
 
 /// Points of a mean over a component, in its deviations. Six around the centre are exact to the fifth degree.
 /// Wide lobes have 37: each that the horizon passes from one view to the next would be a step.
-std::span<const Point> points_of(const MatchedLobe& lobe) {
+std::span<const Point> points_of(const LobeShape& shape) {
     static const double step_of_seven = std::sqrt(2.0 * std::log(6.0));
     static const std::vector<Point> seven = hexagon_points(step_of_seven, step_of_seven);
     static const std::vector<Point> many = hexagon_points(0.95, 2.9);
-    return std::max(lobe.roughness_x, lobe.roughness_y) > shared::MATCHED_WIDE_SLOPE ? many : seven;
+    return std::max(shape.width_x, shape.width_y) > shared::MATCHED_WIDE_SLOPE ? many : seven;
 }
 
 struct Mean {
@@ -118,19 +97,21 @@ struct Mean {
 
 class Row {
 public:
-    Row(const MatchedLobe& lobe, const WeightedLobe& weighted, glm::vec2 drift, glm::dvec2 square)
-        : lobe_(lobe), points_(points_of(lobe)) {
+    Row(const MatchedLobe& lobe, const WeightedLobe& weighted, MixtureTable table, glm::vec2 drift,
+        glm::dvec2 square)
+        : lobe_(lobe), shape_(lobe.shape), table_(table), points_(points_of(lobe.shape)),
+          lit_exponent_(shape_.model->lit_exponent(shape_)) {
         const SquareView view = view_of_square(square);
         omega_o_ = view.omega_o;
-        place_ = place_over(lobe, view, weighted.at(square));
-        const glm::dvec2 o(omega_o_), narrow = place_.axis1 / place_.rho;
-        const glm::dvec2 change(glm::dot(o, narrow), glm::dot(o, place_.axis2));
+        place_ = place_over(shape_, view, weighted.at(square), weighted.share());
+        const glm::dvec2 o(omega_o_), narrow = place_.axis1 / place_.rho, m = shape_.width();
+        const glm::dvec2 change(glm::dot(o, m * narrow), glm::dot(o, m * place_.axis2));
         const double steepness = glm::length(change);
         const glm::dvec2 u = steepness > 1e-7 ? change / steepness : glm::dvec2(0.0, 1.0);
         steepest_ = u.x * narrow + u.y * place_.axis2;
         offset_ = glm::dvec2(drift) * o;
         const double less = shared::MATCHED_NARROW_LESS - shared::MATCHED_NARROW_LESS_OF_ONE / lobe.samples;
-        const double fall = std::exp(-shared::MATCHED_NARROW_DECAY * lobe.roughness_x * lobe.roughness_y);
+        const double fall = std::exp(-shared::MATCHED_NARROW_DECAY * m.x * m.y);
         variance_share_ = shared::MATCHED_VARIANCE_SHARE * (1.0 - less * fall / place_.rho);
         area_ = std::abs(place_.axis1.x * place_.axis2.y - place_.axis1.y * place_.axis2.x);
     }
@@ -149,54 +130,52 @@ public:
         const glm::dvec2 h = glm::dvec2(half_vector) / half_vector.z;
         // The cosine that the kernel puts back in.
         const double lit = (1.0 + glm::dot(h, h)) * mean.direction.z / length;
-        const double weight = mixture.w * mean.base / std::pow(std::max(lit, LEAST_LIT), 1.0 - lobe_.alpha);
+        const double weight = mixture.w * mean.base / std::pow(std::max(lit, LEAST_LIT), lit_exponent_);
         return {glm::vec4(h - offset_, weight, spherical_level(variance, lobe_.face_size)),
                 float(mean.schlick / mean.base)};
     }
 
 private:
-    glm::dvec2 slope_at(glm::dvec2 y) const {
+    glm::dvec2 place_of(glm::dvec2 y) const {
         return place_.center + y.x * place_.axis1 + y.y * place_.axis2;
     }
 
-    /// A share of what the linear map makes of the component, 4 s^2 |axis1 x axis2|/rho (o.h)
-    /// cos_h^3; at most 1, what the sphere holds. The lengths are of the points one deviation to either side
-    /// along the direction in which cos_i changes most.
+    /// A share of what the linear map makes of the component, s^2 |axis1 x axis2|/rho times the stretch
+    /// between the points one deviation to either side along the direction in which cos_i changes most; at
+    /// most 1, what the sphere holds.
     double linear_variance(glm::dvec2 y, double s) const {
-        const glm::dvec2 slope = slope_at(y), h = s * steepest_;
-        const double og = std::max(omega_o_.z + glm::dot(glm::dvec2(omega_o_), slope), 0.0);
-        const glm::dvec2 one = slope + h, other = slope - h;
-        return std::min(variance_share_ * 4.0 * s * s * area_ / place_.rho * og /
-                            ((1.0 + glm::dot(one, one)) * (1.0 + glm::dot(other, other))),
-                        1.0);
+        const glm::dvec2 p = place_of(y), h = s * steepest_;
+        const double stretch = shape_.model->stretch(shape_, omega_o_, p + h, p - h);
+        return std::min(variance_share_ * s * s * area_ / place_.rho * stretch, 1.0);
     }
 
     /// Means over a component of deviation s/rho and s along the axes. A point weighs the lobe's density over
-    /// the mixture's, |dp/dy| exp(|y|^2 - |p|^2), p its slope in units of roughness.
+    /// the mixture's.
     Mean mean_of(glm::dvec2 y, double s) const {
-        const glm::dvec2 roughness(lobe_.roughness_x, lobe_.roughness_y);
         Mean mean;
         for (const Point& point : points_) {
-            const glm::dvec2 at = y + s * glm::dvec2(point.x / place_.rho, point.y);
-            const glm::dvec2 slope = slope_at(at), p = slope / roughness;
-            const std::optional<Reflected> light = reflect_slope(lobe_, omega_o_, slope);
-            if (!light) continue;
-            const double share = point.share * area_ / (roughness.x * roughness.y) *
-                                 std::exp(glm::dot(at, at) - glm::dot(p, p));
-            mean.base += share * light->base;
-            mean.schlick += share * light->base * light->schlick;
-            mean.gain += share * light->grey;
-            mean.direction += share * light->grey * light->omega_i;
+            const glm::dvec2 at = y + s * glm::dvec2(point.x / place_.rho, point.y), p = place_of(at);
+            const LobePoint light = shape_.model->at(shape_, omega_o_, p);
+            if (light.base <= 0.0) continue;
+            const double share = point.share * area_ * table_.ratio(glm::dot(p, p), glm::dot(at, at));
+            const double grey = share * grey_of(shape_, light);
+            mean.base += share * light.base;
+            mean.schlick += share * light.base * light.schlick;
+            mean.gain += grey;
+            mean.direction += grey * light.omega_i;
         }
         return mean;
     }
 
     MatchedLobe lobe_;
+    LobeShape shape_;
+    MixtureTable table_;
     glm::dvec3 omega_o_;
     std::span<const Point> points_;
+    double lit_exponent_;
     Place place_;
     glm::dvec2 offset_;     ///< that kernels add to slopes
-    glm::dvec2 steepest_;   ///< slope of one deviation of s = 1 along which cos_i changes most
+    glm::dvec2 steepest_;   ///< place of one deviation of s = 1 along which cos_i changes most
     double area_;           ///< |axis1 x axis2|
     double variance_share_; ///< of the linear map's variance, what a component has
 };
@@ -219,7 +198,7 @@ bool fits_view_table(glm::vec2 roughness) {
 }
 
 uint32_t view_columns(const MatchedLobe& lobe) {
-    return lobe.roughness_x == lobe.roughness_y ? 1 : 2 * shared::MATCHED_VIEW_NODES - 1;
+    return lobe.shape.is_round() ? 1 : 2 * shared::MATCHED_VIEW_NODES - 1;
 }
 
 uint32_t view_count(const MatchedLobe& lobe) {
@@ -236,14 +215,16 @@ uint64_t view_table_entries(const MatchedLobe& lobe) {
 }
 
 ViewTable build_matched_view_table(const MatchedLobe& lobe) {
-    const std::vector<glm::vec4> mixtures = matched_mixtures(lobe.samples);
+    const double width = std::max(lobe.shape.width_x, lobe.shape.width_y);
+    const MixtureTable mixture_table = MixtureTable::of(lobe.shape.model->density, width);
+    const std::vector<glm::vec4> mixtures = matched_mixtures(lobe.samples, mixture_table);
     const uint32_t half = (lobe.samples + 1) / 2, entries = view_row_entries(lobe);
     const uint32_t columns = view_columns(lobe), lines = view_count(lobe) / columns;
     std::vector<glm::vec4> table(view_table_entries(lobe), glm::vec4(0.0f));
-    const WeightedLobe weighted(lobe);
-    const glm::vec2 drift = lobe_drift(lobe);
+    const WeightedLobe weighted(lobe.shape);
+    const glm::vec2 drift = lobe_drift(lobe.shape);
     const auto place = [&](uint32_t j) {
-        const Row row(lobe, weighted, drift, square_of(lobe, j));
+        const Row row(lobe, weighted, mixture_table, drift, square_of(lobe, j));
         const glm::vec4* mixture = &mixtures[size_t(matched_row(row.rho())) * half];
         glm::vec4* const out = &table[size_t(j) * entries];
         for (uint32_t k = 0; k < lobe.samples; ++k) {

@@ -8,15 +8,13 @@
 
 #include <glm/glm.hpp>
 
+#include "burnish/lobe/facts.h"
+
 namespace burnish {
 
 struct MatchedLobe {
-    uint32_t samples = 14;    ///< one of MATCHED_COUNTS
-    float roughness_x = 0.3f; ///< slopes
-    float roughness_y = 0.3f;
-    float alpha = 0.0f;
-    float specular = 1.0f; ///< F = specular + grazing (1 - o.h)^5, over all channels: weighs directions
-    float grazing = 0.0f;
+    uint32_t samples = 14; ///< one of MATCHED_COUNTS
+    LobeShape shape;
     bool has_schlick = false; ///< rows hold Schlick terms
     uint32_t face_size = 256; ///< of the map, whose levels are round on the sphere
 
@@ -51,9 +49,9 @@ struct ViewTable {
 ///
 /// An entry is (x, y, weight, level): the lookup goes to where the half-vector of slope s = (x, y) + d (o_x,
 /// o_y) mirrors the view o of a point, in the lobe's axes, or, of a round lobe, along the plane of view and
-/// across it, d the lobe's drift; its weight is still to be multiplied by ((1 + |s|^2) cos_i)^(1-alpha). What
-/// is left of both vary less from view to view than directions and weights do, so that the nearest row will
-/// do. A Schlick term is the mean of (1 - o.h)^5 over a component.
+/// across it, d the lobe's drift; its weight is still to be multiplied by ((1 + |s|^2) cos_i)^(1-alpha),
+/// alpha 0 of models that have none. What is left of both vary less from view to view than directions and
+/// weights do, so that the nearest row will do. A Schlick term is the mean of (1 - o.h)^5 over a component.
 ViewTable build_matched_view_table(const MatchedLobe& lobe);
 
 } // namespace burnish

@@ -87,6 +87,27 @@ SampleTable build_sample_table(const Regular& sampler, glm::vec2 roughness, uint
     return table;
 }
 
+PlanePoints plane_points(const Regular& sampler, const LobeShape& shape) {
+    if (sampler.normalization == Normalization::published || sampler.footprint == Footprint::published)
+        throw std::invalid_argument(
+            message("normalization, footprint: expected others than \"published\" for a ", shape.model->name,
+                    " lobe, whose half-vectors depend on the view"));
+    const glm::dvec2 m = shape.width();
+    // The one at which a Gaussian has the radius that the density falls to the threshold at.
+    const double threshold = shape.model->density == Density::gaussian
+                                 ? double(sampler.threshold)
+                                 : std::exp(1.0 - 1.0 / std::sqrt(double(sampler.threshold)));
+    const std::vector<glm::dvec3> pattern = choose_regular_pattern(m, sampler.samples, threshold);
+    const double solid_angle = lobe_solid_angle(m, threshold) / double(pattern.size());
+    PlanePoints points;
+    points.is_normalized = true;
+    for (const glm::dvec3& h : pattern) {
+        points.places.push_back(glm::dvec2(h) / h.z / m);
+        points.areas.push_back(solid_angle / (m.x * m.y * h.z * h.z * h.z));
+    }
+    return points;
+}
+
 SampleTable build_scaled_table(const Regular& sampler, uint32_t face_size) {
     const glm::dvec2 m(SCALED_ROUGHNESS);
     const std::vector<glm::dvec3> pattern = choose_regular_pattern(m, sampler.samples, sampler.threshold);

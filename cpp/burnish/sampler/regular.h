@@ -26,5 +26,8 @@ SamplerFacts facts(const Regular& sampler);
 
 SampleTable build_sample_table(const Regular& sampler, glm::vec2 roughness, uint32_t face_size);
 SampleTable build_scaled_table(const Regular& sampler, uint32_t face_size);
+/// The pattern down to where the density of the lobe's plane has fallen to the threshold. Throws
+/// std::invalid_argument for forms that are printed for other lobes.
+PlanePoints plane_points(const Regular& sampler, const LobeShape& shape);
 
 } // namespace burnish

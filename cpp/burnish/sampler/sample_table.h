@@ -6,6 +6,8 @@
 
 #include <glm/glm.hpp>
 
+#include "burnish/lobe/facts.h"
+
 namespace burnish {
 
 /// One entry a sample: slopes of the half-vector hx/hz, hy/hz; weight; texel factor.
@@ -16,11 +18,26 @@ namespace burnish {
 ///   exact, importance:  K (o.h)/hz r^3        published:  K sqrt((ox^2+oz^2)(oy^2+oz^2)) r / ((o.h)/hz)
 /// with r = |i|/|i|_inf. (o.h)/hz is what the kernel has at hand, so K holds the power of hz.
 ///
+/// Of models whose half-vectors depend on the view: a place of the lobe's plane; weight; a quarter of the
+/// face's texels times the area that it stands for there.
+///
 /// A scaled table serves every roughness of a textured material: slopes are in units of roughness, the weight
 /// is q and the kernel applies D's other factors itself.
 struct SampleTable {
     std::vector<glm::vec4> entries;
 };
+
+/// A pattern in the plane of a lobe, in units of its widths.
+struct PlanePoints {
+    std::vector<glm::dvec2> places;
+    std::vector<double> areas;  ///< each stands for
+    bool is_normalized = false; ///< weights sum to 1
+};
+
+SampleTable make_plane_table(const PlanePoints& points, Density density, uint32_t face_size, float mip_bias);
+
+/// The density of a plane at a squared radius.
+double plane_density(Density density, double r2);
 
 enum class PointSet { hammersley, fibonacci };
 

@@ -3,9 +3,10 @@
 namespace burnish {
 namespace {
 
+/// Those that place points over a lobe, of which a bias moves the levels.
 template <typename Kind>
 concept Pattern = requires(const Kind& sampler) {
-    build_scaled_table(sampler, 1u);
+    sampler.mip_bias;
 };
 
 } // namespace
@@ -18,11 +19,14 @@ SamplerFacts facts(const Sampler& sampler) {
     return std::visit([](const auto& one) { return facts(one); }, sampler);
 }
 
-SampleTable build_sample_table(const Sampler& sampler, glm::vec2 roughness, uint32_t face_size) {
+SampleTable build_sample_table(const Sampler& sampler, const LobeShape& shape, uint32_t face_size) {
     return std::visit(
         [&]<typename Kind>(const Kind& one) {
             if constexpr (Pattern<Kind>)
-                return build_sample_table(one, roughness, face_size);
+                return shape.model->has_fixed_half_vectors
+                           ? build_sample_table(one, shape.width(), face_size)
+                           : make_plane_table(plane_points(one, shape), shape.model->density, face_size,
+                                              one.mip_bias);
             else
                 return SampleTable{};
         },

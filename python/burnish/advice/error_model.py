@@ -16,7 +16,7 @@ studies by ``python -m burnish.advice.calibration.calibrate``, which wrote error
 import json
 import math
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cache
 from importlib.resources import files
 from typing import Any
@@ -27,6 +27,7 @@ from numpy.typing import NDArray
 from burnish import _core
 from burnish.advice.contrast import Spectrum
 from burnish.advice.families import FAMILIES
+from burnish.lobes import Lobe, grazing_exponent, has_fresnel
 
 Float64 = NDArray[np.float64]
 
@@ -70,15 +71,16 @@ class LobeTraits:
     alpha: float = 0.0
 
 
-def traits_of_lobe(lobe: _core.KurtLobe) -> LobeTraits:
+def traits_of_lobe(lobe: Lobe) -> LobeTraits:
     """Read the traits of a lobe.
 
     Parameters
     ----------
     lobe : KurtLobe
-        Any.
+        Any. The model was fitted to Kurt's lobes; others have the errors of that of their widths, until a
+        probe puts them right.
     """
-    return LobeTraits(lobe.roughness, lobe.has_fresnel, lobe.alpha)
+    return LobeTraits(lobe.roughness, has_fresnel(lobe), grazing_exponent(lobe))
 
 
 @dataclass(frozen=True)
@@ -213,7 +215,7 @@ def lobes_of(material: _core.Material) -> list[tuple[LobeTraits, float]]:
         if material.is_metallic_roughness:
             slopes = [(slope, slope) for slope in TEXTURED_SLOPES]
         for pair in slopes:
-            parts.append((LobeTraits(pair, lobe.has_fresnel, lobe.alpha), share / len(slopes)))
+            parts.append((replace(traits_of_lobe(lobe), roughness=pair), share / len(slopes)))
     total = sum(share for _, share in parts) + float(np.mean(material.diffuse))
     return [(traits, share / total) for traits, share in parts if total > 0]
 

@@ -6,7 +6,7 @@ import numpy as np
 import numpy.typing as npt
 
 from .arrays import Array, as_array
-from .kurt_lobe import MIN_COS_O
+from .lobe.base import MIN_COS_O
 
 # q = exp(-36) = 2e-16: nothing of the lobe lies beyond this slope, in units of roughness.
 _LAST_RADIUS = 6.0
@@ -84,8 +84,9 @@ def _albedo_chunk(omega_o: Array, mx: float, my: float, alpha: float) -> Array:
     return both * oz**-alpha
 
 
-def blend_albedo(parts: npt.ArrayLike, r0: npt.ArrayLike) -> Array:
-    """Albedo per channel, (..., 3), of reflectance r0 (a number or three) from the two parts."""
+def blend_albedo(parts: npt.ArrayLike, r0: npt.ArrayLike, f90: npt.ArrayLike = 1.0) -> Array:
+    """Albedo per channel, (..., 3), of reflectances r0 and f90 (a number or three) from the two parts."""
     parts = as_array(parts)[..., None, :]
     r0 = np.broadcast_to(as_array(r0), 3)
-    return r0 * parts[..., 0] + (1 - r0) * parts[..., 1]
+    result: Array = r0 * parts[..., 0] + (as_array(f90) - r0) * parts[..., 1]
+    return result

@@ -20,7 +20,8 @@ from .footprint import (
 )
 from .frame import frame_from_tangent, rotate_frame
 from .importance import Points
-from .kurt_lobe import MIN_COS_O, LobeLike, grazing_factor, kurt_d, kurt_pdf_omega_i, schlick_fresnel, slopes
+from .lobe.base import MIN_COS_O, KurtLike, schlick_fresnel, slopes
+from .lobe.kurt import grazing_factor, kurt_d, kurt_pdf_omega_i
 from .regular_pattern import lobe_solid_angle
 from .spherical_harmonics import irradiance
 
@@ -95,7 +96,7 @@ def shade_regular(
     n: npt.ArrayLike,
     t: npt.ArrayLike,
     omega_o: npt.ArrayLike,
-    lobe: LobeLike,
+    lobe: KurtLike,
     pattern: npt.ArrayLike,
     threshold: float,
     footprint: Footprint = "exact",
@@ -161,7 +162,7 @@ def shade_importance(
     n: npt.ArrayLike,
     t: npt.ArrayLike,
     omega_o: npt.ArrayLike,
-    lobe: LobeLike,
+    lobe: KurtLike,
     half_vectors: npt.ArrayLike,
     mip_bias: float = 0.0,
 ) -> Array:

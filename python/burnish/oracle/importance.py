@@ -6,7 +6,8 @@ import numpy as np
 import numpy.typing as npt
 
 from .arrays import Array, as_array
-from .kurt_lobe import MIN_X1, kurt_sample
+from .lobe.base import MIN_X1
+from .lobe.kurt import kurt_sample
 
 Points = Literal["hammersley", "fibonacci"]
 

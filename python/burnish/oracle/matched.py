@@ -7,11 +7,12 @@ from typing import Any, Literal
 import numpy as np
 import numpy.typing as npt
 
-from .albedo import blend_albedo, directional_albedo
+from .albedo import blend_albedo
 from .arrays import Array, as_array, dot, normalize
 from .cube_map import PaddedCube, pad_cube, sample_cube
 from .estimator import LocalFrame, local_frame
-from .kurt_lobe import LobeLike, slopes
+from .lobe.base import LobeLike, grazing_reflectance, slopes
+from .lobe.models import model_of
 from .matched_means import (
     Means,
     corner_means,
@@ -23,10 +24,12 @@ from .matched_means import (
 from .matched_table import (
     MOST_VIEW_ASPECT,
     closest_count,
+    load_student_tables,
     load_table,
     mixture_at,
     nearest_aspect,
     nearest_view,
+    student_window,
 )
 from .pyramid import build_pyramid
 from .spherical_pyramid import build_spherical_pyramid
@@ -81,6 +84,13 @@ _PLACEMENTS: dict[Placement, Any] = {
 }
 
 
+def rows_of(lobe: LobeLike, samples: int) -> Array:
+    """Rows of one of `COUNTS` for a lobe's density, (aspects, half, 4)."""
+    if model_of(lobe).DENSITY == "gaussian":
+        return load_table()[samples]
+    return load_student_tables()[student_window(max(slopes(lobe)))][samples]
+
+
 def placement_of(lobe: LobeLike) -> Placement:
     """How samples of a lobe are placed that no texture varies."""
     mx, my = slopes(lobe)
@@ -119,8 +129,9 @@ def matched_lookups(
 
     The spherical pyramid is the same everywhere: nothing but the directions' rotation depends on the frame.
     Samples depend on the lobe and the view in its frame: half-vectors and levels are those of the nearest
-    view of a table, and so are weights but for their factor cos_i^(1-alpha), unless the lobe's aspect exceeds
-    MOST_VIEW_ASPECT. Slopes of the half-vectors drift with the view, by `lobe_drift` for a unit of it.
+    view of a table, and so are weights but for their power of cos_i (`lit_exponent`), unless the lobe's
+    aspect exceeds MOST_VIEW_ASPECT. Slopes of the half-vectors drift with the view, by `lobe_drift` for a
+    unit of it.
     """
     mx, my = slopes(lobe)
     view = frame.omega_o
@@ -134,7 +145,7 @@ def matched_lookups(
         h = normalize(np.concatenate([slope, np.ones_like(half[..., 2:])], axis=-1))
         direction = 2 * dot(view[..., None, :], h)[..., None] * h - view[..., None, :]
         lit, near_lit = (np.maximum(i[..., 2], _LEAST_LIT) for i in (direction, means.direction))
-        weight = means.gains * ((lit / near_lit) ** (1 - lobe.alpha))[..., None]
+        weight = means.gains * ((lit / near_lit) ** model_of(lobe).lit_exponent(lobe))[..., None]
     else:
         means = place_means(view, lobe, samples, rows, placement)
         direction, weight = means.direction, means.gains
@@ -192,10 +203,10 @@ def shade_matched(
     """
     frame = local_frame(n, t, omega_o, lobe.rotation)
     count = closest_count(samples)
-    rows, cube = load_table()[count], light_map.cube
+    rows, cube = rows_of(lobe, count), light_map.cube
     lookups = matched_lookups(frame, lobe, count, rows, cube.face_texels, placement)
     radiance = sample_cube(cube, lookups.direction, lookups.level)
     total, weights = np.sum(lookups.weight * radiance, axis=-2), np.sum(lookups.weight, axis=-2)
-    albedo = blend_albedo(directional_albedo(frame.omega_o, slopes(lobe), lobe.alpha), lobe.r0)
+    albedo = blend_albedo(model_of(lobe).albedo(frame.omega_o, lobe), lobe.r0, grazing_reflectance(lobe))
     mean = np.where(weights > 0, total / np.where(weights > 0, weights, 1.0) * albedo, 0.0)
     return as_array(lobe.weight) * (mean + shade_suns(light_map.suns, frame, lobe))

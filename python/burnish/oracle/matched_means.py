@@ -5,10 +5,11 @@ from dataclasses import dataclass
 import numpy as np
 
 from .albedo import blend_albedo
-from .arrays import Array, as_array, dot
-from .kurt_lobe import LobeLike, slopes
-from .lobe_map import lobe_map, principal_axes, reflection_map
-from .matched_table import Mixture, plane_of_view
+from .arrays import Array, dot
+from .lobe.base import LobeLike, grazing_reflectance, slopes
+from .lobe.models import model_of
+from .lobe_map import lobe_map, principal_axes
+from .matched_table import Mixture, plane_of_view, window_ratio
 from .weighted_lobe import lobe_moments, moment_share, reflect_slopes
 
 # Where less than this is reflected, the sample lies below the horizon.
@@ -61,22 +62,29 @@ def weighted_place(omega_o: Array, lobe: LobeLike) -> Place:
     """Over what is reflected of the lobe, `moment_share` of the way there.
 
     With mean mu and covariance S of `lobe_moments`, both mixed with the lobe's own 0 and 1/2: R = (2 S)^1/2
-    carries the lobe to where it lies. J, the derivative of the reflection at the half-vector of mu times R,
-    has the principal axes. Of round lobes they are the plane of view and across it, whichever is longer:
+    carries the lobe to where it lies. J, the derivative of the reflection at mu times R, has the principal
+    axes. Of round lobes they are the plane of view and across it, whichever is longer:
     around the normal of a wide one that changes, and a step would show.
     """
     mx, my = slopes(lobe)
-    moments = lobe_moments(omega_o, lobe)
-    share = moment_share((mx, my))
-    center = share * moments.mean
-    doubled = 2 * share * moments.covariance + (1 - share) * np.eye(2)
+    model = model_of(lobe)
+    if model.DENSITY == "gaussian":
+        moments, share = lobe_moments(omega_o, lobe), moment_share((mx, my))
+        center, covariance = share * moments.mean, share * moments.covariance
+    else:
+        # The plane itself follows what is seen.
+        share, center, covariance = 0.0, np.zeros((*omega_o.shape[:-1], 2)), np.zeros((2, 2))
+    doubled = 2 * covariance + (1 - share) * np.eye(2)
     # The root of a symmetric matrix S is (S + det^1/2)/(trace + 2 det^1/2)^1/2.
     determinant = np.sqrt(np.linalg.det(doubled))[..., None, None]
     trace = np.trace(doubled, axis1=-2, axis2=-1)[..., None, None]
     root = (doubled + determinant * np.eye(2)) / np.sqrt(trace + 2 * determinant)
     roughness = np.array([mx, my])
-    center, columns = center * roughness, root * roughness[:, None]
-    mirrored = reflection_map(omega_o, center, columns)
+    center, columns = (
+        center * roughness,
+        np.broadcast_to(root * roughness[:, None], (*omega_o.shape[:-1], 2, 2)),
+    )
+    mirrored = model.linear_map(omega_o, lobe, center, columns)
     if mx == my:
         v1, v2 = np.moveaxis(plane_of_view(omega_o), -1, 0)
         along, across = (
@@ -153,13 +161,13 @@ def _means(
 ) -> Means:
     """Means over points of slopes (..., n, k, 2) with shares (..., n, k).
 
-    The variance per axis is `variance_share` of the linear map's, 4 s^2 |axis1 x axis2|/rho (o.h) cos_h^3
-    with cos_h^-4 the product of |g|^2 of the pair. Where a sample's centre reflects the horizon, that is next
-    to nothing: half of the spread of what its points reflect, 1 - |M|/G, is the least.
+    The variance per axis is `variance_share` of the linear map's, s^2 |axis1 x axis2|/rho times the model's
+    stretch between the pair. Where a sample's centre reflects the horizon, that is next to nothing: half of
+    the spread of what its points reflect, 1 - |M|/G, is the least.
     """
     light = reflect_slopes(omega_o[..., None, None, :], lobe, points, bend)
     parts = [np.sum(shares * part, axis=-1) for part in (light.base, light.base * light.schlick)]
-    gains = blend_albedo(np.stack(parts, axis=-1), np.broadcast_to(as_array(lobe.r0), 3))
+    gains = blend_albedo(np.stack(parts, axis=-1), lobe.r0, grazing_reflectance(lobe))
     gain = np.sum(shares * light.grey, axis=-1)
     mean = np.sum((shares * light.grey)[..., None] * light.omega_i, axis=-2)
     # Where nothing is reflected, the mirror direction.
@@ -169,10 +177,10 @@ def _means(
     direction = np.where(seen[..., None], mean / length[..., None], mirror)
 
     pair = _pair(omega_o, mixture, place)
-    middle = 0.5 * (pair.slope[..., 0, :] + pair.slope[..., 1, :])
-    product = np.maximum(dot(omega_o[..., None, :2], middle) + omega_o[..., None, 2], 0)
-    lengths = np.prod(1 + dot(pair.slope, pair.slope), axis=-1)
-    linear = 4 * mixture.s**2 * (np.abs(place.area) / place.rho)[..., None] * product / lengths
+    stretch = model_of(lobe).stretch(
+        omega_o[..., None, :], lobe, pair.slope[..., 0, :], pair.slope[..., 1, :]
+    )
+    linear = mixture.s**2 * (np.abs(place.area) / place.rho)[..., None] * stretch
     spread = np.where(seen, np.maximum(1 - length / np.where(seen, gain, 1.0), 0.0), 0.0)
     # The map is far from linear where it makes more than the sphere holds.
     share = variance_share(lobe, mixture.w.shape[-1], place.rho)[..., None]
@@ -201,7 +209,7 @@ def view_means(omega_o: Array, lobe: LobeLike, mixture: Mixture, place: Place) -
     With g = F cos_i^(1-alpha) cos_o^-alpha/cos_h times the lobe's density over the mixture's, 0 below the
     horizon, G = E[g] and M = E[g omega_i]: the direction is M/|M| with F over all channels, the weight G for
     each channel. In units y of the mixture's axes and p of roughness the densities' ratio is
-    |dp/dy| exp(|y|^2 - |p|^2).
+    |dp/dy| exp(|y|^2 - |p|^2) of a Gaussian, else `window_ratio`.
 
     Parameters
     ----------
@@ -213,7 +221,10 @@ def view_means(omega_o: Array, lobe: LobeLike, mixture: Mixture, place: Place) -
     y1, y2 = _spread_over(mixture, place, grid)
     points = _slopes_at(place, y1, y2)
     p = points / [mx, my]
-    ratio = (place.area / (mx * my))[..., None, None] * np.exp(y1**2 + y2**2 - dot(p, p))
+    if model_of(lobe).DENSITY == "gaussian":
+        ratio = (place.area / (mx * my))[..., None, None] * np.exp(y1**2 + y2**2 - dot(p, p))
+    else:
+        ratio = window_ratio(max(mx, my), y1**2 + y2**2)
     return _means(omega_o, lobe, mixture, place, points, shares * ratio, np.ones(1))
 
 

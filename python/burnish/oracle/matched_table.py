@@ -1,4 +1,4 @@
-"""The table of `matched`: small Gaussian mixtures fitted to elliptic Gaussian lobes."""
+"""The tables of `matched`: small Gaussian mixtures fitted to elliptic lobes, one table a density."""
 
 import math
 from dataclasses import dataclass
@@ -15,10 +15,23 @@ COUNTS = (*range(2, 11), 12, 14, 16, 17, 20, 24, 30, 32, 48, 64)
 #: Rows along the aspect rho, at rho_j = LARGEST_ASPECT^(j/(ASPECT_COUNT - 1)).
 ASPECT_COUNT = 52
 LARGEST_ASPECT = 100.0
-#: Where `fit_matched` writes it.
+#: Rows of the lobes with tails, every third of those aspects.
+STUDENT_STEP = 3
+#: Windows R of the density (1 + r^2)^-2 exp(-r^2/(2 R^2)) that the mixtures of such lobes are fitted to: of
+#: wide lobes the tail lies below the horizon, and samples there would be lost.
+STUDENT_WINDOWS = (math.inf, 2.7, 1.4)
+#: Of Student's density, what they leave.
+STUDENT_SHARES = (1.0, 0.8406213, 0.6614072)
+#: Widths up to which lobes take the first windows.
+STUDENT_WIDTHS = (0.25, 0.4)
+#: Where `fit_matched` writes them.
 TABLE_PATH = Path(__file__).parent.parent / "tables" / "matched.txt"
-#: Of the committed file; the one place that knows it.
-TABLE_SHA256 = "b2106b8a93dc66a7a132c70776ded058690b7c49afa3779b7551469fd5cb1ec7"
+STUDENT_PATH = TABLE_PATH.with_name("student.txt")
+#: Of the committed files; the one place that knows them.
+TABLE_SHA256 = {
+    TABLE_PATH: "b2106b8a93dc66a7a132c70776ded058690b7c49afa3779b7551469fd5cb1ec7",
+    STUDENT_PATH: "0b66db19f1fe284d6e5307b76f1e8a5ca60ff0ed47cd90f0eee20b86212c55c5",
+}
 
 
 @dataclass(frozen=True)
@@ -31,19 +44,48 @@ class Mixture:
     w: Array
 
 
+def _read_tables(path: Path, aspects: int, tables: int) -> list[dict[int, Array]]:
+    text = path.read_text(encoding="ascii").splitlines()
+    numbers = np.array([line.rstrip(",").split(",") for line in text if not line.startswith("//")], float)
+    result: list[dict[int, Array]] = []
+    start = 0
+    for _ in range(tables):
+        result.append({})
+        for count in COUNTS:
+            half = (count + 1) // 2
+            result[-1][count] = numbers[start : start + aspects * half].reshape(aspects, half, 4)
+            start += aspects * half
+    if start != len(numbers):
+        raise ValueError(f"{path}: expected {start} rows, got {len(numbers)}")
+    return result
+
+
 @lru_cache(maxsize=1)
 def load_table() -> dict[int, Array]:
-    """Rows y1, y2, s, w of the half-samples, (ASPECT_COUNT, half, 4) for each count."""
-    text = TABLE_PATH.read_text(encoding="ascii").splitlines()
-    numbers = np.array([line.rstrip(",").split(",") for line in text if not line.startswith("//")], float)
-    table, start = {}, 0
-    for count in COUNTS:
-        half = (count + 1) // 2
-        table[count] = numbers[start : start + ASPECT_COUNT * half].reshape(ASPECT_COUNT, half, 4)
-        start += ASPECT_COUNT * half
-    if start != len(numbers):
-        raise ValueError(f"{TABLE_PATH}: expected {start} rows, got {len(numbers)}")
-    return table
+    """Rows y1, y2, s, w of the half-samples of Gaussian lobes, (ASPECT_COUNT, half, 4) for each count."""
+    return _read_tables(TABLE_PATH, ASPECT_COUNT, 1)[0]
+
+
+@lru_cache(maxsize=1)
+def load_student_tables() -> list[dict[int, Array]]:
+    """The same of lobes of Student's density, one table a window, every STUDENT_STEP-th aspect."""
+    aspects = (ASPECT_COUNT - 1) // STUDENT_STEP + 1
+    return _read_tables(STUDENT_PATH, aspects, len(STUDENT_WINDOWS))
+
+
+def student_window(width: float) -> int:
+    """Which of STUDENT_WINDOWS serves lobes of this greater width."""
+    return sum(width > most for most in STUDENT_WIDTHS)
+
+
+def window_ratio(width: float, r2: Array) -> Array:
+    """Student's density over what the mixtures of such lobes stand for: Z exp(min(r^2/(2 R^2), 2.5)).
+
+    Z = 1 - a e^a E1(a), a = 1/(2 R^2), is the part of Student's density that the window leaves.
+    """
+    index = student_window(width)
+    a = 0.5 / STUDENT_WINDOWS[index] ** 2
+    return STUDENT_SHARES[index] * np.exp(np.minimum(a * r2, 2.5))
 
 
 def closest_count(samples: int) -> int:
@@ -59,15 +101,14 @@ def mixture_at(rows: Array, samples: int, rho: npt.ArrayLike) -> Mixture:
 
     Parameters
     ----------
-    rows : (ASPECT_COUNT, half, 4)
+    rows : (aspects, half, 4)
     rho : (...)
         At least 1; beyond the last row that row serves.
     """
     rho = as_array(rho)
-    at = np.clip(
-        np.log(np.maximum(rho, 1.0)) * ((ASPECT_COUNT - 1) / math.log(LARGEST_ASPECT)), 0, ASPECT_COUNT - 1
-    )
-    low = np.minimum(at.astype(np.int64), ASPECT_COUNT - 2)
+    last = len(rows) - 1
+    at = np.clip(np.log(np.maximum(rho, 1.0)) * (last / math.log(LARGEST_ASPECT)), 0, last)
+    low = np.minimum(at.astype(np.int64), last - 1)
     share = (at - low)[..., None, None]
     half = (1 - share) * rows[low] + share * rows[low + 1]
     pairs = half[..., samples % 2 :, :]

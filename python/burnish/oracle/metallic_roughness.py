@@ -6,7 +6,8 @@ from typing import Any
 import numpy as np
 
 from .arrays import Array, as_array
-from .kurt_lobe import KurtLobe, LobeLike
+from .lobe.base import LobeLike
+from .lobe.kurt import KurtLobe
 
 #: Smallest slope of a lobe.
 MIN_ROUGHNESS = 1e-3

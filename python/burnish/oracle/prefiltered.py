@@ -7,11 +7,12 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from .albedo import blend_albedo, directional_albedo
+from .albedo import blend_albedo
 from .arrays import Array, as_array, dot, normalize, reflect
 from .cube_map import PaddedCube, pad_cube, sample_cube, texel_directions, texel_solid_angle
 from .estimator import local_frame
-from .kurt_lobe import LobeLike, slopes
+from .lobe.base import LobeLike, grazing_reflectance, slopes
+from .lobe.models import model_of
 
 #: A level of n texels along an edge is filtered by the lobe of slope LEVEL_SLOPE/n.
 LEVEL_SLOPE = 3.0
@@ -89,7 +90,8 @@ def shade_prefiltered(
 ) -> Array:
     """Radiance of one lobe: its albedo times one lookup at the mirrored view, 0 for views from behind.
 
-    A brushed lobe is looked up as the round one of slope sqrt(mx my).
+    A brushed lobe is looked up as the round one of slope sqrt(mx my). Levels are filtered by Kurt's lobe:
+    another model has its slope for it.
 
     Parameters
     ----------
@@ -108,8 +110,9 @@ def shade_prefiltered(
     mx, my = slopes(lobe)
     mirrored = reflect(frame.omega_o, np.array([0.0, 0.0, 1.0]))
     direction = frame.to_world(mirrored[..., None, :])[..., 0, :]
-    level = prefiltered_level(np.sqrt(mx * my), int(cube.sizes[0]))
-    albedo = blend_albedo(directional_albedo(frame.omega_o, (mx, my), lobe.alpha), lobe.r0)
+    model = model_of(lobe)
+    level = prefiltered_level(model.FILTER_SLOPE * np.sqrt(mx * my), int(cube.sizes[0]))
+    albedo = blend_albedo(model.albedo(frame.omega_o, lobe), lobe.r0, grazing_reflectance(lobe))
     seen = dot(normalize(omega_o), normalize(n))[..., None] > 0
     result: Array = as_array(lobe.weight) * albedo * sample_cube(cube, direction, level)
     return np.where(seen, result, 0.0)

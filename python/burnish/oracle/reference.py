@@ -6,13 +6,11 @@ import numpy.typing as npt
 from .arrays import Array, as_array
 from .cube_map import cube_direction, texel_solid_angle
 from .estimator import local_frame
-from .kurt_lobe import LobeLike, grazing_factor, schlick_fresnel, slopes
+from .lobe.base import LobeLike, grazing_reflectance, schlick_fresnel
+from .lobe.models import model_of
 
 LEAST_QUADRATURE_FACE = 64
 """Least edge of the grid on a face in the engine's quadrature: texels of coarser maps are taken in parts."""
-
-# q = exp(-40) = 4e-18: such texels add nothing to a sum in float64.
-_LAST_EXPONENT = 40.0
 
 
 def quadrature_parts(face_size: int) -> int:
@@ -40,8 +38,6 @@ def shade_reference(
     parts: int = 1,
 ) -> Array:
     """Radiance sum over texels of f cos_i L dw, dw the texel's exact solid angle.
-
-    The half-vector's slopes are (i + o)_xy/(i + o)_z, so q needs no normalised half-vector.
 
     Parameters
     ----------
@@ -78,16 +74,8 @@ def _face_sum(omega_i: Array, omega_o: Array, lobe: LobeLike, energy: Array) -> 
     above = np.flatnonzero(omega_i[2] > 0)
     if len(above) == 0:
         return np.zeros(energy.shape[-1])
-    mx, my = slopes(lobe)
-    x, y, z = omega_i[:, above] + omega_o[:, None]
-    exponent = (x / (mx * z)) ** 2 + (y / (my * z)) ** 2
-    near = np.flatnonzero(exponent < _LAST_EXPONENT)
-    x, y, z = x[near], y[near], z[near]
-    length2 = x * x + y * y + z * z
-    # |i + o|^2 = 2 + 2 i.o and (o.h)^2 = (1 + i.o)/2: o.h = |i + o|/2.
-    o_h = 0.5 * np.sqrt(length2)
-    d = np.exp(-exponent[near]) * (length2 / (z * z)) ** 2 / (np.pi * mx * my)
-    value = d / (4 * o_h) * grazing_factor(omega_i[2, above[near]], omega_o[2], lobe.alpha)
-    fresnel = schlick_fresnel(o_h[:, None], as_array(lobe.r0))
-    result: Array = np.sum(value[:, None] * fresnel * energy[above[near]], axis=0)
+    values = model_of(lobe).values(omega_i[:, above], omega_o, lobe)
+    r0, f90 = as_array(lobe.r0), grazing_reflectance(lobe)
+    fresnel = schlick_fresnel(values.o_h[:, None], r0, f90 if r0.ndim else f90[:1])
+    result: Array = np.sum(values.value[:, None] * fresnel * energy[above[values.near]], axis=0)
     return result

@@ -8,7 +8,7 @@ import numpy as np
 import numpy.typing as npt
 
 from .arrays import Array, as_array
-from .kurt_lobe import kurt_q
+from .lobe.kurt import kurt_q
 
 Spacing = Literal["s1", "s2"]
 

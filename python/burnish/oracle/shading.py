@@ -6,25 +6,25 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from .albedo import directional_albedo
 from .arrays import Array, as_array, dot
 from .cube_map import PaddedCube, pad_cube
 from .estimator import local_frame, shade_importance, shade_regular
 from .importance import importance_half_vectors
 from .irradiance import DiffuseForm, diffuse_light
-from .kurt_lobe import LobeLike
+from .lobe.models import model_of
 from .matched import MatchedMap, Placement, read_matched, shade_matched
+from .plane import shade_plane
 from .prefiltered import shade_prefiltered
 from .reference import shade_reference
 from .regular_pattern import choose_pattern
 
 
-def conserving_scale(normals: Array, tangents: Array, views: Array, lobe: LobeLike) -> Array:
+def conserving_scale(normals: Array, tangents: Array, views: Array, lobe: Any) -> Array:
     """1 / max(1, E_1), (..., 1): keeps a lobe from giving back more than it gets; 1 unless it asks for it."""
-    if not lobe.conserve_energy or lobe.alpha == 0.0:
+    if not getattr(lobe, "conserve_energy", False) or lobe.alpha == 0.0:
         return np.ones((*normals.shape[:-1], 1))
     omega_o = local_frame(normals, tangents, views, lobe.rotation).omega_o
-    albedo: Array = directional_albedo(omega_o, lobe.roughness, lobe.alpha)[..., :1]
+    albedo: Array = model_of(lobe).albedo(omega_o, lobe)[..., :1]
     return 1.0 / np.maximum(albedo, 1.0)
 
 
@@ -34,10 +34,12 @@ def diffuse_form(sampler: Any) -> DiffuseForm | None:
 
 
 def shade_lobe(
-    cube: PaddedCube, n: npt.ArrayLike, t: npt.ArrayLike, omega_o: npt.ArrayLike, lobe: LobeLike, sampler: Any
+    cube: PaddedCube, n: npt.ArrayLike, t: npt.ArrayLike, omega_o: npt.ArrayLike, lobe: Any, sampler: Any
 ) -> Array:
     """Radiance of one lobe by the regular pattern or importance sampling, the oracle's or burnish's own."""
     name = type(sampler).__name__
+    if name in ("Regular", "Importance") and model_of(lobe).DENSITY != "gaussian":
+        return shade_plane(cube, n, t, omega_o, lobe, sampler)
     if name == "Regular":
         pattern = choose_pattern(lobe.roughness, sampler.samples, sampler.threshold)
         return shade_regular(

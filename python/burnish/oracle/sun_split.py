@@ -9,7 +9,8 @@ import numpy.typing as npt
 from .arrays import Array, as_array, dot, normalize
 from .cube_map import texel_directions, texel_solid_angle
 from .estimator import LocalFrame
-from .kurt_lobe import LobeLike, grazing_factor, schlick_fresnel, slopes
+from .lobe.base import LobeLike, grazing_reflectance, schlick_fresnel
+from .lobe.models import model_of
 
 #: Most suns of a map.
 MOST_SUNS = 4
@@ -82,15 +83,16 @@ def shade_suns(suns: Sequence[Sun], frame: LocalFrame, lobe: LobeLike) -> Array:
     """Radiance of one lobe, without its weight, under suns: flux f cos_i of a lobe that is wider by the sun.
 
     A variance v of directions is v/4 of half-vectors in the plane of view and light, and v/(4 (o.h)^2) across
-    it, which at grazing views is much more. A step dh changes a slope s = h_xy/hz by (dh_xy - s dh_z)/hz; the
-    lobe's slopes have the covariance diag(m^2)/2. Of dh_z/hz no more than a tenth counts: where the
-    half-vector lies along the surface, the linear change would give it the slopes of all others.
+    it, which at grazing views is much more. A step dh changes a slope s = h_xy/hz by (dh_xy - s dh_z)/hz. Of
+    dh_z/hz no more than a tenth counts: where the half-vector lies along the surface, the linear change would
+    give it the slopes of all others. The model says what the covariance of these slopes makes of its D.
 
     Returns
     -------
     radiance : (..., 3)
     """
     omega_o = frame.omega_o
+    model = model_of(lobe)
     total = np.zeros(omega_o.shape)
     axes = np.stack([frame.tangent, frame.bitangent, frame.normal], axis=-2)
     for sun in suns:
@@ -99,18 +101,17 @@ def shade_suns(suns: Sequence[Sun], frame: LocalFrame, lobe: LobeLike) -> Array:
         seen = (omega_i[..., 2] > 0) & (h[..., 2] > 1e-3)
         h = np.where(seen[..., None], h, [0.0, 0.0, 1.0])
         o_h = np.maximum(dot(omega_o, h), 1e-4)
-        density = _sunlit_density(h, omega_o, o_h, slopes(lobe), sun.variance) / (4 * o_h)
-        grazing = grazing_factor(omega_i[..., 2], omega_o[..., 2], lobe.alpha)
-        value = np.where(seen, density * grazing, 0.0)
-        fresnel = schlick_fresnel(o_h[..., None], np.broadcast_to(as_array(lobe.r0), 3))
+        covariance = _slope_covariance(h, omega_o, o_h, sun.variance)
+        i = np.where(seen[..., None], omega_i, [0.0, 0.0, 1.0])
+        density = model.widened_d(h[..., :2] / h[..., 2:], lobe, covariance) / h[..., 2] ** 4
+        value = np.where(seen, density * model.rest(i, omega_o, o_h, lobe), 0.0)
+        fresnel = schlick_fresnel(o_h[..., None], as_array(lobe.r0), grazing_reflectance(lobe))
         total = total + value[..., None] * fresnel * sun.flux
     return total
 
 
-def _sunlit_density(
-    h: Array, omega_o: Array, o_h: Array, roughness: tuple[float, float], variance: float
-) -> Array:
-    """D of a lobe whose slopes have the sun's covariance on top of their own."""
+def _slope_covariance(h: Array, omega_o: Array, o_h: Array, variance: float) -> Array:
+    """Covariance (..., 2, 2) of the slopes of half-vectors under a sun."""
     across = np.cross(omega_o, h)
     # Toward the light any two directions will do.
     facing = dot(across, across) <= 1e-8
@@ -120,18 +121,6 @@ def _sunlit_density(
     slope = h[..., :2] / h[..., 2:]
     scale = 0.5 * np.sqrt(variance) / h[..., 2]
     steps = scale[..., None] * along, (scale / o_h)[..., None] * across
-    (x1, y1), (x2, y2) = (
-        np.moveaxis(step[..., :2] - slope * np.clip(step[..., 2:], -_MOST_STEP, _MOST_STEP), -1, 0)
-        for step in steps
-    )
-    own_x, own_y = 0.5 * roughness[0] ** 2, 0.5 * roughness[1] ** 2
-    # Of the covariance; every term is positive, nothing cancels.
-    determinant = own_x * own_y + own_x * (y1**2 + y2**2) + own_y * (x1**2 + x2**2) + (x1 * y2 - y1 * x2) ** 2
-    quadratic = (
-        (own_y + y1**2 + y2**2) * slope[..., 0] ** 2
-        - 2 * (x1 * y1 + x2 * y2) * slope[..., 0] * slope[..., 1]
-        + (own_x + x1**2 + x2**2) * slope[..., 1] ** 2
-    )
-    exponent = 0.5 * quadratic / determinant
-    result: Array = np.exp(-exponent) / (2 * np.pi * np.sqrt(determinant) * h[..., 2] ** 4)
+    moved = [step[..., :2] - slope * np.clip(step[..., 2:], -_MOST_STEP, _MOST_STEP) for step in steps]
+    result: Array = sum(one[..., :, None] * one[..., None, :] for one in moved)
     return result

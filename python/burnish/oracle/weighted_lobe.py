@@ -2,17 +2,21 @@
 
 Slopes of half-vectors are in units of roughness here, p = (hx/(mx hz), hy/(my hz)): the lobe's density is
 exp(-|p|^2)/pi. At grazing views the horizon cuts it, and the Fresnel factor pulls it toward the horizon.
+Lobes of other densities lie in a plane of what the eye sees, and their mixtures in its middle.
 """
 
 import math
 from dataclasses import dataclass
 from functools import lru_cache
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
 from .arrays import Array, as_array, dot
-from .kurt_lobe import KurtLobe, LobeLike, grazing_factor, schlick_fresnel, slopes
+from .lobe.base import LobeLike, grazing_reflectance, slopes
+from .lobe.kurt import KurtLobe
+from .lobe.models import model_of
 from .matched_table import half_square, plane_of_view, view_at
 
 # Reflectance along the normal below which directions are no longer weighed by it.
@@ -28,11 +32,12 @@ MOMENT_SHARE = 0.8
 
 
 def grey_specular(lobe: LobeLike) -> float:
-    """Reflectance along the normal over all channels, weighed as they are seen: mean(w r0)/mean(w)."""
+    """Reflectance along the normal over all channels, weighed as they are seen: mean(w r0)/mean(w f90)."""
     weight, r0 = np.broadcast_to(as_array(lobe.weight), 3), np.broadcast_to(as_array(lobe.r0), 3)
-    if np.mean(weight) <= 0:
+    grazing = np.mean(weight * grazing_reflectance(lobe))
+    if grazing <= 0:
         return 1.0
-    return float(np.clip(np.mean(weight * r0) / np.mean(weight), _LEAST_SPECULAR, 1.0))
+    return float(np.clip(np.mean(weight * r0) / grazing, _LEAST_SPECULAR, 1.0))
 
 
 def moment_share(roughness: tuple[float, float]) -> float:
@@ -44,25 +49,21 @@ def moment_share(roughness: tuple[float, float]) -> float:
 
 
 @dataclass(frozen=True)
-class Reflected:
-    """What half-vectors reflect; omega_i (..., 3), the others (...)."""
+class Weighed:
+    """What places of a lobe reflect; omega_i (..., 3), the others (...)."""
 
     omega_i: Array
-    base: Array  # cos_i^(1-alpha) cos_o^-alpha/cos_h, 0 below the horizon
+    base: Array  # without Fresnel, see `Reflected`
     schlick: Array  # (1 - o.h)^5
     grey: Array  # F base, F over all channels
 
 
-def reflect_slopes(omega_o: Array, lobe: LobeLike, slope: Array, bend: Array | float = 1.0) -> Reflected:
-    """Mirror local views (..., 3) at half-vectors g = (slope, 1), to bend 2 (o.g)/|g|^2 g - o."""
-    g = np.concatenate([slope, np.ones((*slope.shape[:-1], 1))], axis=-1)
-    length2, product = dot(g, g), dot(omega_o, g)
-    omega_i = (bend * 2 * product / length2)[..., None] * g - omega_o
-    grazing = grazing_factor(np.where(product > 0, omega_i[..., 2], 0.0), omega_o[..., 2], lobe.alpha)
-    base = np.sqrt(length2) * grazing
-    o_h = product / np.sqrt(length2)
-    grey = base * schlick_fresnel(o_h, grey_specular(lobe))
-    return Reflected(omega_i, base, schlick_fresnel(o_h, 0.0), grey)
+def reflect_slopes(omega_o: Array, lobe: LobeLike, slope: Array, bend: Array | float = 1.0) -> Weighed:
+    """Mirror local views (..., 3) at places of the lobe, as its model does, and weigh them by Fresnel."""
+    light = model_of(lobe).reflect(omega_o, lobe, slope, bend)
+    specular = grey_specular(lobe)
+    grey = light.base * (specular + (1 - specular) * light.schlick)
+    return Weighed(light.omega_i, light.base, light.schlick, grey)
 
 
 @dataclass(frozen=True)
@@ -94,9 +95,15 @@ def _drift(roughness: tuple[float, float], alpha: float, specular: float) -> Arr
     return as_array((moment_share(roughness) * np.array(roughness) * mean).astype(np.float16))
 
 
-def lobe_drift(lobe: LobeLike) -> Array:
+def lobe_drift(lobe: Any) -> Array:
     """What the middle of a mixture moves by, a slope (2,), for a unit of o_x and o_y around the normal."""
-    return _drift(slopes(lobe), float(lobe.alpha), grey_specular(lobe))
+    mx, my = slopes(lobe)
+    if model_of(lobe).DENSITY == "gaussian":
+        return _drift((mx, my), float(lobe.alpha), grey_specular(lobe))
+    views = view_at(_DRIFT_RADIUS * np.eye(2))
+    half = views + model_of(lobe).reflect(views, lobe, np.zeros((2, 2))).omega_i
+    drift = np.diag(half[:, :2] / half[:, 2:]) / np.diag(views[:, :2])
+    return as_array(np.repeat(drift[:1], 2) if mx == my else drift).astype(np.float16).astype(np.float64)
 
 
 @lru_cache(maxsize=64)
@@ -127,8 +134,8 @@ def _interpolate(values: Array, at: Array) -> Array:
     return result
 
 
-def lobe_moments(omega_o: npt.ArrayLike, lobe: LobeLike) -> Moments:
-    """Moments at local views (..., 3), between those of the nodes."""
+def lobe_moments(omega_o: npt.ArrayLike, lobe: Any) -> Moments:
+    """Moments at local views (..., 3) of a lobe of Gaussian density, between those of the nodes."""
     omega_o = as_array(omega_o)
     mx, my = slopes(lobe)
     nodes = _node_moments((mx, my), float(lobe.alpha), grey_specular(lobe))

@@ -8,18 +8,7 @@ from typing import Any
 import numpy as np
 
 from burnish import _core
-
-
-def describe_lobe(lobe: _core.KurtLobe) -> dict[str, Any]:
-    """Give a lobe's parameters, as its constructor takes them."""
-    return {
-        "roughness": list(lobe.roughness),
-        "r0": list(lobe.r0),
-        "alpha": lobe.alpha,
-        "weight": list(lobe.weight),
-        "rotation": lobe.rotation,
-        "conserve_energy": lobe.conserve_energy,
-    }
+from burnish.lobes import describe_lobe, grazing_exponent, make_lobe, model_of
 
 
 def describe_material(material: _core.Material) -> dict[str, Any]:
@@ -41,7 +30,7 @@ def make_material(description: dict[str, Any]) -> _core.Material:
     description : dict
         Constructor arguments of a `Material`, its lobes as dicts of theirs.
     """
-    lobes = [_core.KurtLobe(**lobe) for lobe in description["lobes"]]
+    lobes = [make_lobe(lobe) for lobe in description["lobes"]]
     return _core.Material(**description | {"lobes": lobes})
 
 
@@ -59,11 +48,12 @@ def material_label(material: _core.Material) -> str:
     parts = ["diffuse"] if any(material.diffuse) else []
     for lobe in material.lobes:
         slopes = dict.fromkeys(_number(slope) for slope in lobe.roughness)
-        words = [f"m {'/'.join(slopes)}"]
+        symbol = "m" if model_of(lobe) == "kurt" else model_of(lobe)
+        words = [f"{symbol} {'/'.join(slopes)}"]
         if any(value != 1.0 for value in lobe.r0):
             words.append(f"r0 {'/'.join(dict.fromkeys(map(_number, lobe.r0)))}")
-        if lobe.alpha:
-            words.append(f"alpha {_number(lobe.alpha)}")
+        if grazing_exponent(lobe):
+            words.append(f"alpha {_number(grazing_exponent(lobe))}")
         parts.append(", ".join(words))
     return " + ".join(parts) or "black"
 

@@ -1,11 +1,13 @@
-"""Make matched.txt, the mixtures of the sampler `matched`: python -m burnish.tables.fit_matched.
+"""Make the mixtures of the sampler `matched`: python -m burnish.tables.fit_matched.
 
-For every count, mixtures are fitted to lobes of all aspects from several starts, and the candidate is kept
-whose lookups err least on training environments. Needs scipy (extra `fit`). The same seed gives the same
-table.
+matched.txt is for lobes of Gaussian density: for every count, mixtures are fitted to lobes of all aspects
+from several starts, and the candidate is kept whose lookups err least on training environments. student.txt
+(--density student) is for lobes with tails, of density (1 + r^2)^-2: the one of the least loss is kept.
+Needs scipy (extra `fit`). The same seed gives the same table.
 """
 
 import argparse
+import math
 import os
 from concurrent.futures import ProcessPoolExecutor, as_completed
 from itertools import product
@@ -17,7 +19,16 @@ from numpy.typing import NDArray
 from tqdm import tqdm
 
 from burnish.images.files import write_text
-from burnish.oracle.matched_table import ASPECT_COUNT, COUNTS, LARGEST_ASPECT, TABLE_PATH, mixture_at
+from burnish.oracle.matched_table import (
+    ASPECT_COUNT,
+    COUNTS,
+    LARGEST_ASPECT,
+    STUDENT_PATH,
+    STUDENT_STEP,
+    STUDENT_WINDOWS,
+    TABLE_PATH,
+    mixture_at,
+)
 from burnish.oracle.spherical_pyramid import PREFILTER_SAMPLES
 from burnish.tables.fit_objective import (
     ASPECTS,
@@ -27,6 +38,7 @@ from burnish.tables.fit_objective import (
     fit,
     quantiser,
     short_share,
+    student_target,
 )
 from burnish.tables.fit_selection import Training, make_training, score
 
@@ -50,14 +62,18 @@ _MOST_MISSED = 0.02
 # Many unknowns take more iterations.
 _ITERATIONS_A_SAMPLE = 16
 
+# Of lobes with tails: aspects whose quantisers are starts, and the weight of the mass.
+_STUDENT_ASPECTS = (2.0, 6.0, 15.0)
+_MASS_WEIGHT = 3.0
+
 _HEADER = """\
 // Mixtures of Gaussians that `matched` places over a lobe, for its counts of samples and {nodes} aspects.
 // Made by: python -m burnish.tables.fit_matched{arguments}
 // A row is one half-sample, y1, y2, s, w: centre along the major and the minor axis of the lobe
-// exp(-y1^2 - y2^2), each in that axis' unit; standard deviation s in units of the minor axis; weight.
+// {density}, each in that axis' unit; standard deviation s in units of the minor axis; weight.
 // It stands for the two samples (y, -y), each of this s and this w; of an odd count the first row is the one
 // sample at 0. The weights of all n samples sum to 1.
-// Order: for n in {counts}:
+// Order: {windows}for n in {counts}:
 // for aspect rho_j = {largest:g}^(j/{last}), j = 0..{last}: for k = 0..ceil(n/2)-1.
 """
 
@@ -120,6 +136,15 @@ def best_rows(samples: int, training: Training, seed: int, iterations: int) -> F
     return kept
 
 
+def student_rows(window: float, samples: int, seed: int, iterations: int) -> Float64:
+    """Rows of the candidate of the least loss for a lobe with a tail."""
+    target = student_target(window)
+    most = max(iterations, _ITERATIONS_A_SAMPLE * samples)
+    starts = [quantiser(samples, aspect, seed, target) for aspect in _STUDENT_ASPECTS]
+    fits = [fit(start, _KERNEL_ERRORS[1], _MASS_WEIGHT, most, target) for start in starts]
+    return rows_of(min(fits, key=lambda one: one[0])[1])[::STUDENT_STEP]
+
+
 def format_rows(rows: Float64) -> str:
     """Text of (..., 4) rows, six significant digits."""
     return "".join(f"{y1:.6g}, {y2:.6g}, {s:.6g}, {w:.6g},\n" for y1, y2, s, w in rows.reshape(-1, 4))
@@ -130,38 +155,56 @@ def main() -> None:
     parser = argparse.ArgumentParser(
         description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
     )
-    parser.add_argument("--output", type=Path, default=TABLE_PATH)
+    parser.add_argument(
+        "--density",
+        choices=("gaussian", "student"),
+        default="gaussian",
+        help="of the lobes (default: gaussian)",
+    )
+    parser.add_argument("--output", type=Path, help="(default: the committed file)")
     parser.add_argument("--seed", type=int, default=101, help="of starts, training environments and points")
     parser.add_argument("--jobs", type=int, default=os.cpu_count(), help="processes (default: one a core)")
     parser.add_argument(
         "--iterations", type=int, default=600, help="of L-BFGS, at most, per start (default: 600)"
     )
     arguments = parser.parse_args()
-    # The table makes the pyramid it is read from: here a first fit does.
-    start = quantiser(PREFILTER_SAMPLES, _START_ASPECTS[0], arguments.seed)
-    first = rows_of(fit(start, _KERNEL_ERRORS[0], _MOMENT_WEIGHT, arguments.iterations)[1])
-    training = make_training(arguments.seed, mixture_at(first, PREFILTER_SAMPLES, 1.0))
+    seed, iterations = arguments.seed, arguments.iterations
+    is_student = arguments.density == "student"
+    windows = STUDENT_WINDOWS if is_student else (math.inf,)
+    if not is_student:
+        # The table makes the pyramid it is read from: here a first fit does.
+        start = quantiser(PREFILTER_SAMPLES, _START_ASPECTS[0], seed)
+        first = rows_of(fit(start, _KERNEL_ERRORS[0], _MOMENT_WEIGHT, iterations)[1])
+        training = make_training(seed, mixture_at(first, PREFILTER_SAMPLES, 1.0))
     text = {}
+    keys = [(window, samples) for samples in reversed(COUNTS) for window in windows]  # the longest first
     with ProcessPoolExecutor(arguments.jobs, mp_context=get_context("fork")) as pool:
         jobs = {
-            pool.submit(best_rows, samples, training, arguments.seed, arguments.iterations): samples
-            for samples in reversed(COUNTS)  # the longest first
+            pool.submit(student_rows, *key, seed, iterations)
+            if is_student
+            else pool.submit(best_rows, key[1], training, seed, iterations): key
+            for key in keys
         }
-        for job in tqdm(as_completed(jobs), total=len(jobs), unit="count"):
+        for job in tqdm(as_completed(jobs), total=len(jobs), unit="fit"):
             text[jobs[job]] = format_rows(job.result())
     changed = "".join(
         f" --{name} {getattr(arguments, name)}"
-        for name in ("seed", "iterations")
+        for name in ("density", "seed", "iterations")
         if getattr(arguments, name) != parser.get_default(name)
     )
+    nodes = (ASPECT_COUNT - 1) // STUDENT_STEP + 1 if is_student else ASPECT_COUNT
+    named = ", ".join(f"{window:g}" for window in windows)
     header = _HEADER.format(
         arguments=changed,
         counts=", ".join(map(str, COUNTS)),
-        nodes=ASPECT_COUNT,
+        nodes=nodes,
         largest=LARGEST_ASPECT,
-        last=ASPECT_COUNT - 1,
+        last=nodes - 1,
+        density="(1 + r^2)^-2 exp(-r^2/(2 R^2))" if is_student else "exp(-y1^2 - y2^2)",
+        windows=f"for R in {named}: " if is_student else "",
     )
-    write_text(arguments.output, header + "".join(text[samples] for samples in COUNTS))
+    output = arguments.output or (STUDENT_PATH if is_student else TABLE_PATH)
+    write_text(output, header + "".join(text[window, n] for window in windows for n in COUNTS))
 
 
 if __name__ == "__main__":

@@ -1,4 +1,4 @@
-"""Loss of Gaussian mixtures against an elliptic Gaussian lobe, its gradient, and where to start.
+"""Loss of Gaussian mixtures against an elliptic lobe, its gradient, and where to start.
 
 A mixture has n samples of centre y, width s and weight w; all aspects of the lobe are fitted together. Only
 half of the samples are unknown: pairs (y, -y) share s and w, and an odd n has one sample at 0.
@@ -7,8 +7,11 @@ Closeness is measured as light sees it. Up to an aspect of about n/5 round sampl
 least difference from it is the best mixture. Along longer lobes that minimum has narrow samples with gaps in
 between, and light in a gap is missed: there the difference is measured at several scales, blurred by as many
 Gaussians, and the mixture may be wider than the lobe.
+
+The lobe is a sum of Gaussians itself (`Target`), so that all products are in closed form.
 """
 
+import math
 from dataclasses import dataclass
 from typing import Any
 
@@ -26,6 +29,8 @@ ASPECTS: Float64 = LARGEST_ASPECT ** (np.arange(ASPECT_COUNT) / (ASPECT_COUNT - 
 LEAST_WIDTH = 0.02
 # Greatest one where samples fill the lobe; along longer ones it is a multiple of rho/n.
 _MOST_WIDTH, _MOST_WIDTH_LONG = 1.2, 2.0
+# Of a lobe with a tail, which one or two wide samples stand for.
+_MOST_WIDTH_STUDENT = 12.0
 # Deviations of the blurs, in minor axes; the first compares the mixture itself.
 _SCALES = (0.0, 0.5, 1.0, 2.0, 4.0, 8.0, 16.0, 32.0)
 # Weight of the unblurred difference against the blurred ones', along long lobes and, added, on short ones.
@@ -34,12 +39,48 @@ _SHARP, _SHARP_SHORT = 0.05, 1000.0
 _SHORT_SHARP = (0.2, 4)
 #: The same for the minor axis' moment.
 SHORT_MOMENT = (0.55, 8)
+# Of points of starts, in minor axes.
+_FARTHEST_START = 5.0
 # Greatest weight of a sample, in units of 1/n.
 _MOST_WEIGHT = 4.0
 # Weight of the roughness along the aspect.
 _SMOOTHNESS = 3e-3
 # A trilinear lookup's error is correlated over this share of the variance of the lookups.
 _CORRELATION = 0.3
+
+
+@dataclass(frozen=True)
+class Target:
+    """A lobe sum_a c_a N(0, t_a/2 diag(rho^2, 1)), its minor axis the unit."""
+
+    share: Float64  # c, of sum 1
+    spread: Float64  # t
+    has_moments: bool  # whether the mixture keeps its variances
+    most_width: float  # of a sample where samples fill the lobe
+
+    def squares(self, sigma: float) -> Float64:
+        """Integrals of the squares of the lobes of all ASPECTS, blurred by a deviation."""
+        spread = 0.5 * (self.spread[:, None] + self.spread)[..., None]
+        areas = (spread * ASPECTS**2 + 2 * sigma**2) * (spread + 2 * sigma**2)
+        shares = (self.share[:, None] * self.share)[..., None]
+        result: Float64 = np.sum(shares / (2 * np.pi * np.sqrt(areas)), axis=(0, 1))
+        return result
+
+
+#: exp(-r^2)/pi.
+GAUSSIAN = Target(np.ones(1), np.ones(1), has_moments=True, most_width=_MOST_WIDTH)
+
+
+def student_target(window: float) -> Target:
+    """(1 + r^2)^-2 exp(-r^2/(2 R^2)), R = `window`, infinite for none.
+
+    (1 + r^2)^-2/pi = int_0^inf u exp(-u) (u/pi) exp(-u r^2) du/u: Gaussians of variance 1/(2u), on a grid
+    even in ln u. The window adds 1/(2 R^2) to each u. Variances are infinite without it.
+    """
+    u = np.exp(np.linspace(math.log(1e-3), math.log(14.0), 15))
+    windowed = u + 0.5 / window**2
+    share = u * np.exp(-u) * u / windowed
+    return Target(share / np.sum(share), 1 / windowed, has_moments=False, most_width=_MOST_WIDTH_STUDENT)
 
 
 @dataclass(frozen=True)
@@ -84,9 +125,9 @@ def short_share(samples: int, until: tuple[float, int]) -> Float64:
     return result
 
 
-def greatest_widths(samples: int) -> Float64:
+def greatest_widths(samples: int, target: Target) -> Float64:
     """Greatest width of a sample at each aspect, in units of the minor axis."""
-    return np.maximum(_MOST_WIDTH, _MOST_WIDTH_LONG * ASPECTS / samples)
+    return np.maximum(target.most_width, _MOST_WIDTH_LONG * ASPECTS / samples)
 
 
 def scale_weights(samples: int) -> Float64:
@@ -101,20 +142,21 @@ def scale_weights(samples: int) -> Float64:
 
 
 def loss_and_gradient(
-    unknowns: Float64, samples: int, kernel_error: float, moment_weight: float
+    unknowns: Float64, samples: int, kernel_error: float, moment_weight: float, target: Target = GAUSSIAN
 ) -> tuple[float, Float64]:
     """Sum of the losses of all aspects, and its gradient.
 
-    With the lobe K = N(0, diag(rho^2, 1)/2), x = (rho y1, y2), G_k = N(x_k, s_k^2 I), v_jk = s_j^2 + s_k^2
-    and blurs N_i of variance sigma_i^2, sigma_0 = 0:
+    With the lobe K of `target`, x = (rho y1, y2), G_k = N(x_k, s_k^2 I), v_jk = s_j^2 + s_k^2 and blurs N_i
+    of variance sigma_i^2, sigma_0 = 0:
 
         E = (sum_i c_i |(K - sum w G)*N_i|^2 + c_0 eps^2 sum_jk w_j w_k exp(-d_jk^2/(2 hc v_jk))/(2 pi v_jk))
             / sum_i c_i |K*N_i|^2 + lambda (m0^2 + m1^2 + short m2^2),
         m0 = sum w - 1, m1 = sum w (x1^2 + s^2)/rho^2 - 1/2, m2 = sum w (x2^2 + s^2) - 1/2;
 
-    the first moments vanish by symmetry, and a blur adds its variance to each Gaussian's. The term of eps is
-    the expected error of lookups whose kernel differs from a Gaussian by a relative eps, alike for
-    neighbours. Neighbouring aspects are drawn together by mu/n |p_{j+1} - p_j|^2/ln(rho_{j+1}/rho_j).
+    m1 and m2 count where the lobe has such moments; the first ones vanish by symmetry, and a blur adds its
+    variance to each Gaussian's. The term of eps is the expected error of lookups whose kernel differs from a
+    Gaussian by a relative eps, alike for neighbours. Neighbouring aspects are drawn together by
+    mu/n |p_{j+1} - p_j|^2/ln(rho_{j+1}/rho_j).
     `kernel_error` is eps, `moment_weight` lambda.
     """
     mixtures = unpack(samples, unknowns)
@@ -135,14 +177,16 @@ def loss_and_gradient(
     for c, sigma in zip(scale_weights(samples), _SCALES, strict=True):
         blur = 2 * sigma**2
         # Products with the lobe.
-        v1, v2 = 0.5 * rho**2 + s2 + blur, 0.5 + s2 + blur
-        product = c[:, None] * np.exp(-0.5 * (x1**2 / v1 + x2**2 / v2)) / (2 * np.pi * np.sqrt(v1 * v2))
-        d_mass -= 2 * product
-        d_x1 += 2 * mass * product * x1 / v1
-        d_x2 += 2 * mass * product * x2 / v2
-        d_s2 -= mass * product * (x1**2 / v1**2 + x2**2 / v2**2 - 1 / v1 - 1 / v2)
-        loss -= 2 * np.sum(mass * product, axis=1)
-        norm += c / (2 * np.pi * np.sqrt((ASPECTS**2 + blur) * (1 + blur)))
+        for part, spread in zip(target.share, target.spread, strict=True):
+            v1, v2 = 0.5 * spread * rho**2 + s2 + blur, 0.5 * spread + s2 + blur
+            peak = part * c[:, None] / (2 * np.pi * np.sqrt(v1 * v2))
+            product = peak * np.exp(-0.5 * (x1**2 / v1 + x2**2 / v2))
+            d_mass -= 2 * product
+            d_x1 += 2 * mass * product * x1 / v1
+            d_x2 += 2 * mass * product * x2 / v2
+            d_s2 -= mass * product * (x1**2 / v1**2 + x2**2 / v2**2 - 1 / v1 - 1 / v2)
+            loss -= 2 * np.sum(mass * product, axis=1)
+        norm += c * target.squares(sigma)
         inverse = 1 / (v + blur)
         peak = c[:, None, None] * inverse / (2 * np.pi)
         for k in (0, 1):
@@ -169,10 +213,12 @@ def loss_and_gradient(
 
     short = short_share(samples, SHORT_MOMENT)
     total = np.sum(mass, axis=1) - 1
+    keeps = 1.0 if target.has_moments else 0.0
     spread1 = np.sum(mass * (x1**2 + s2), axis=1) / ASPECTS**2 - 0.5
     spread2 = np.sum(mass * (x2**2 + s2), axis=1) - 0.5
-    loss += moment_weight * (total**2 + spread1**2 + short * spread2**2)
-    m0, m1, m2 = (2 * moment_weight * m[:, None] for m in (total, spread1 / ASPECTS**2, short * spread2))
+    loss += moment_weight * (total**2 + keeps * (spread1**2 + short * spread2**2))
+    slopes = (total, keeps * spread1 / ASPECTS**2, keeps * short * spread2)
+    m0, m1, m2 = (2 * moment_weight * m[:, None] for m in slopes)
     d_mass += m0 + m1 * (x1**2 + s2) + m2 * (x2**2 + s2)
     d_x1 += 2 * mass * x1 * m1
     d_x2 += 2 * mass * x2 * m2
@@ -191,10 +237,21 @@ def loss_and_gradient(
     return float(np.sum(weight * loss) + np.sum(scale * step**2)), gradient.ravel()
 
 
-def quantiser(samples: int, aspect: float, seed: int) -> Mixtures:
+def _draw(target: Target, count: int, rng: np.random.Generator) -> Float64:
+    """Points of a round lobe, those of tails too far for a centre left out."""
+    points: Float64 = rng.normal(size=(count, 2)) * np.sqrt(0.5)
+    if len(target.share) == 1:
+        return points
+    spread = target.spread[rng.choice(len(target.share), size=count, p=target.share)]
+    points = points * np.sqrt(spread)[:, None]
+    near: Float64 = points[np.sum(points**2, axis=1) < _FARTHEST_START**2]
+    return near
+
+
+def quantiser(samples: int, aspect: float, seed: int, target: Target = GAUSSIAN) -> Mixtures:
     """Symmetric k-means of the lobe at one aspect, the same at every node; a start for `fit`."""
     rng = np.random.default_rng([seed, samples, round(100 * aspect)])
-    points = rng.normal(size=(6000, 2)) * np.sqrt(0.5) * [aspect, 1.0]
+    points = _draw(target, 6000, rng) * [aspect, 1.0]
     half = (samples + 1) // 2
     best: tuple[float, Any] = (np.inf, None)
     for _ in range(3):
@@ -227,11 +284,11 @@ def quantiser(samples: int, aspect: float, seed: int) -> Mixtures:
 
 
 def fit(
-    start: Mixtures, kernel_error: float, moment_weight: float, iterations: int
+    start: Mixtures, kernel_error: float, moment_weight: float, iterations: int, target: Target = GAUSSIAN
 ) -> tuple[float, Mixtures]:
     """Minimise the loss from a start by L-BFGS within the bounds; return the loss and the mixtures."""
     size = start.y1.size
-    widest = np.repeat(np.log(greatest_widths(start.samples)), start.y1.shape[1])
+    widest = np.repeat(np.log(greatest_widths(start.samples, target)), start.y1.shape[1])
     bounds = (
         [(None, None)] * (2 * size)
         + [(float(np.log(LEAST_WIDTH)), float(most)) for most in widest]
@@ -240,7 +297,7 @@ def fit(
     result = minimize(
         loss_and_gradient,
         start.unknowns,
-        args=(start.samples, kernel_error, moment_weight),
+        args=(start.samples, kernel_error, moment_weight, target),
         jac=True,
         method="L-BFGS-B",
         bounds=bounds,

@@ -9,7 +9,7 @@ from burnish.oracle.arrays import normalize
 from burnish.oracle.cube_map import PaddedCube, cube_stretch, pad_cube, sample_cube, texel_directions
 from burnish.oracle.estimator import LocalFrame, local_frame
 from burnish.oracle.frame import frame_from_tangent
-from burnish.oracle.kurt_lobe import KurtLobe
+from burnish.oracle.lobe.kurt import KurtLobe
 from burnish.oracle.matched import matched_lookups
 from burnish.oracle.matched_table import Mixture
 from burnish.oracle.pyramid import build_pyramid

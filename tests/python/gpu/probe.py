@@ -21,9 +21,13 @@ CONSTANT = re.compile(r"PROBE_(\w+) = (\d+)u;")
 
 
 def lib_functions():
-    """Name of every function of glsl/lib and glsl/lobe, and its probe: of its file, or of its lobe."""
+    """Name of every function of glsl/lib and glsl/lobe, and its probe: of its file, or of its lobe.
+
+    lobe.glsl is a switch between models, which test_lobe_models runs on every sampler.
+    """
     probes = {path: path.stem for path in sorted((REPOSITORY / "glsl/lib").glob("*.glsl"))}
-    probes |= {path: f"{path.stem}_lobe" for path in sorted((REPOSITORY / "glsl/lobe").glob("*.glsl"))}
+    lobes = [path for path in sorted((REPOSITORY / "glsl/lobe").glob("*.glsl")) if path.stem != "lobe"]
+    probes |= {path: f"{'kurt' if path.stem == 'interface' else path.stem}_lobe" for path in lobes}
     return {name: probe for path, probe in probes.items() for name in FUNCTION.findall(path.read_text())}
 
 

@@ -5,7 +5,7 @@ import pytest
 from probe import REPOSITORY, probe
 
 from burnish.oracle.chi_square import chi_square_test, sidak_level
-from burnish.oracle.kurt_lobe import kurt_pdf
+from burnish.oracle.lobe.kurt import kurt_pdf
 
 ROUGHNESSES = [
     *((1e-3, 1e-3), (0.01, 0.01), (0.1, 0.1), (0.3, 0.3), (1, 1)),

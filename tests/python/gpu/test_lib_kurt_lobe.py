@@ -3,9 +3,11 @@
 import numpy as np
 import pytest
 from probe import LEAST_NORMAL, ULP, assert_close, pow_error, probe, rows, units
+from widened import covariances, densities, full
 
-from burnish.oracle import kurt_lobe
 from burnish.oracle.arrays import dot, normalize
+from burnish.oracle.lobe import kurt
+from burnish.oracle.lobe.base import quadratic_form
 
 COUNT = 20000
 EDGES = [(1, 1), (1e-3, 1e-3), (1, 1e-3), (1e-3, 1), (0.2, 0.075), (10, 10)]
@@ -37,7 +39,7 @@ def half_vectors(rng, m):
 
 
 def exponent_of(h, m):
-    return kurt_lobe.kurt_exponent(h, m[:, 0], m[:, 1])
+    return kurt.kurt_exponent(h, m[:, 0], m[:, 1])
 
 
 def q_error(exponent):
@@ -52,7 +54,7 @@ def test_schlick_weight(device, rng):
         1 - 10.0 ** rng.uniform(-7, 0, COUNT),
     )
     actual = probe(device, "schlick_weight", u)[:, 0, 0]
-    expected = kurt_lobe.schlick_fresnel(u, 0.0)
+    expected = kurt.schlick_fresnel(u, 0.0)
     # A difference that enters to the fifth power, and three products of which one enters twice.
     assert_close("schlick_weight", actual, expected, 4.5 * ULP * expected + LEAST_NORMAL, u=u)
 
@@ -62,7 +64,7 @@ def test_schlick_fresnel(device, rng):
     r0 = rng.choice((0, 0.04, 1), len(u)).astype(np.float32)
     r0[::2] = rng.uniform(0, 1, len(r0[::2]))
     actual = probe(device, "schlick_fresnel", (u, r0))[:, 0, 0]
-    expected = kurt_lobe.schlick_fresnel(u, r0)
+    expected = kurt.schlick_fresnel(u, r0)
     assert_close("schlick_fresnel", actual, expected, 6 * ULP * expected + LEAST_NORMAL, u=u, r0=r0)
 
 
@@ -70,7 +72,7 @@ def test_kurt_q(device, rng):
     m = roughnesses(rng)
     h = half_vectors(rng, m)
     actual = probe(device, "kurt_q", h, m)[:, 0, 0]
-    expected = kurt_lobe.kurt_q(h, m[:, 0], m[:, 1])
+    expected = kurt.kurt_q(h, m[:, 0], m[:, 1])
     allowed = q_error(exponent_of(h, m)) * expected + LEAST_NORMAL
     assert_close("kurt_q", actual, expected, allowed, h=h, m=m)
     assert np.all(actual[h[:, 2] <= 0] == 0)
@@ -88,7 +90,7 @@ def test_kurt_d(device, rng):
     m = roughnesses(rng)
     h = half_vectors(rng, m)
     actual = probe(device, "kurt_d", h, m)[:, 0, 0]
-    expected = kurt_lobe.kurt_d(h, m[:, 0], m[:, 1])
+    expected = kurt.kurt_d(h, m[:, 0], m[:, 1])
     assert_close("kurt_d", actual, expected, d_allowed(h, m, expected), h=h, m=m)
     assert np.all(actual[h[:, 2] <= 0] == 0)
 
@@ -100,10 +102,10 @@ def test_kurt_pdf(device, rng):
     omega_o *= np.where(dot(omega_o, h) > 0, 1, -1)[:, None].astype(np.float32)
     cos_d = dot(omega_o, h).astype(np.float32)
     actual = probe(device, "kurt_pdf", h, m, cos_d)[:, 0, 0]
-    expected = kurt_lobe.kurt_pdf_omega_i(h, omega_o, m[:, 0], m[:, 1])
+    expected = kurt.kurt_pdf_omega_i(h, omega_o, m[:, 0], m[:, 1])
     # The density's error times what is applied to it, and the cosine as float32 has it: half an ulp.
     scale = np.maximum(h[:, 2], 0) / (4 * cos_d.astype(float))
-    density = kurt_lobe.kurt_d(h, m[:, 0], m[:, 1])
+    density = kurt.kurt_d(h, m[:, 0], m[:, 1])
     allowed = d_allowed(h, m, density) * scale + 4 * ULP * expected + LEAST_NORMAL
     assert_close("kurt_pdf", actual, expected, allowed, h=h, m=m, omega_o=omega_o)
 
@@ -122,7 +124,7 @@ def test_grazing_term(device, rng, alpha):
     )
     alpha = np.float32(alpha)
     actual = probe(device, "grazing_term", (cos_i, cos_o, alpha))[:, 0, 0]
-    expected = kurt_lobe.grazing_factor(cos_i, cos_o, float(alpha))
+    expected = kurt.grazing_factor(cos_i, cos_o, float(alpha))
     above = np.maximum(cos_i.astype(float), 1e-30)
     relative = pow_error(above, 1 - float(alpha)) + pow_error(np.maximum(cos_o, 1e-4), float(alpha)) + ULP
     assert_close(
@@ -147,7 +149,7 @@ def test_sample_kurt(device, rng):
     x = random_squares(rng, COUNT)
     actual = probe(device, "sample_kurt", x, m)[:, 0, :3]
     x1, x2 = x.astype(float).T
-    expected = kurt_lobe.kurt_sample(x1, x2, m[:, 0], m[:, 1])
+    expected = kurt.kurt_sample(x1, x2, m[:, 0], m[:, 1])
     # Beside 1 the logarithm errs by 2^-21, thus the radius by up to 2^-10.5 of the roughness: seen by the few
     # samples of this share. Sine and cosine err by 2^-21 on every driver met so far (Vulkan promises 2^-11).
     log = -np.log(np.maximum(x1, 2.0**-24))
@@ -174,8 +176,8 @@ def test_kurt_value(device, rng):
     actual = probe(device, "kurt_value", omega_i, omega_o, (m[:, 0], m[:, 1], alpha))[:, 0, 0]
     expected = np.zeros(COUNT)
     for k in range(COUNT):
-        lobe = kurt_lobe.KurtLobe(m[k].astype(float), alpha=float(alpha[k]))
-        expected[k] = kurt_lobe.kurt_brdf(omega_i[k], omega_o[k], lobe)[0] * max(omega_i[k, 2], 0)
+        lobe = kurt.KurtLobe(m[k].astype(float), alpha=float(alpha[k]))
+        expected[k] = kurt.kurt_brdf(omega_i[k], omega_o[k], lobe)[0] * max(omega_i[k, 2], 0)
     assert np.all(np.isfinite(actual)) and np.all(actual >= 0)
     assert np.all(actual[omega_i[:, 2] <= 0] == 0)
     # The sum's rounding turns h by `turn`; ln D changes with it by 2 sqrt(exponent)/(m cos_h^2) and 4/cos_h,
@@ -206,3 +208,26 @@ def test_kurt_value_of_directions_that_cancel_is_zero(device):
     lobe = np.tile(np.float32([0.1, 0.1, 1]), (len(omega_o), 1))
     actual = probe(device, "kurt_value", omega_i, omega_o, lobe)
     np.testing.assert_array_equal(actual[:, 0, 0], 0)
+
+
+def test_widened_form(device, rng):
+    a = roughnesses(rng)
+    slope, wider = covariances(rng, a)
+    actual = probe(device, "widened_form", slope, wider, (a[:, 0] ** 2, a[:, 1] ** 2, np.float32(1.0)))[
+        :, 0, :2
+    ]
+    own = np.zeros((len(a), 2, 2))
+    own[:, 0, 0], own[:, 1, 1] = (a**2).astype(float).T
+    square, _ = quadratic_form(full(wider) + own, slope.astype(float))
+    reach = np.sum(slope.astype(float) ** 2 / a.astype(float) ** 2, axis=-1)
+    assert_close(
+        "widened_form", actual[:, 0], square, 1e-3 * (square + reach) + 1e-6, slope=slope, wider=wider, a=a
+    )
+
+
+def test_kurt_widened_d(device, rng):
+    a = np.maximum(roughnesses(rng, 4000), np.float32(1e-3))
+    slope, wider = covariances(rng, a)
+    actual = probe(device, "kurt_widened_d", slope, wider, a)[:, 0, 0]
+    expected = densities(kurt, kurt.KurtLobe, slope, wider, a)
+    np.testing.assert_allclose(actual, expected, rtol=2e-2, atol=1e-3 * np.median(expected))

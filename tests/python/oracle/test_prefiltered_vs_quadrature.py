@@ -6,7 +6,7 @@ import pytest
 from burnish.oracle.albedo import directional_albedo
 from burnish.oracle.arrays import normalize
 from burnish.oracle.cube_map import sample_cube, texel_directions
-from burnish.oracle.kurt_lobe import KurtLobe
+from burnish.oracle.lobe.kurt import KurtLobe
 from burnish.oracle.prefiltered import (
     LEVEL_SLOPE,
     filter_environment,

@@ -9,7 +9,7 @@ from burnish.oracle.cube_map import texel_directions
 from burnish.oracle.estimator import local_frame, shade_importance, shade_regular
 from burnish.oracle.frame import frame_from_tangent
 from burnish.oracle.importance import importance_half_vectors
-from burnish.oracle.kurt_lobe import KurtLobe
+from burnish.oracle.lobe.kurt import KurtLobe
 from burnish.oracle.pyramid import build_pyramid
 from burnish.oracle.reference import shade_reference
 from burnish.oracle.regular_pattern import choose_pattern, sample_pattern

@@ -12,7 +12,7 @@ SUFFIXES = {".cpp", ".h", ".glsl", ".py", ".pyi", ".cmake", ".txt", ""}
 # Style asks for 300 lines and one job; beyond this a file must be split.
 MOST_LINES = 400
 # Numbers made by a script beside them.
-DATA_FILES = {"python/burnish/tables/matched.txt"}
+DATA_FILES = {"python/burnish/tables/matched.txt", "python/burnish/tables/student.txt"}
 # Spelled in parts so that this file passes its own test.
 UNFINISHED = re.compile(r"\b(TO" r"DO|FIX" r"ME|X" r"XX)\b(?!\(?\s*#\d+)")
 DEAD_CODE = re.compile(r"^\s*#\s*if 0\b", re.MULTILINE)

@@ -6,12 +6,12 @@ from pathlib import Path
 import pytest
 
 PACKAGE = Path(__file__).resolve().parents[3] / "python" / "burnish"
-EXTENSION = {"_core", "_samplers", "_texels", "_timings"}
+EXTENSION = {"_core", "_lobes", "_samplers", "_texels", "_timings"}
 # From the bottom; names are modules or packages, and the longest that fits counts.
 LAYERS = (
     (*sorted(EXTENSION), "_extension", "_progress", "_version", "cube_layout"),
     ("oracle", "images", "_device"),
-    ("samplers", "environments", "environment_io", "report", "frame"),
+    ("samplers", "lobes", "environments", "environment_io", "report", "frame"),
     ("builtin", "rendering"),
     ("scenes", "_methods", "study"),
     ("advice",),

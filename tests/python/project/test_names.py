@@ -25,13 +25,18 @@ NAMED_OTHERWISE = {
     "grazing_term": ("grazing_factor", "the shader's takes cosines that are already clamped"),
     "sample_kurt": ("kurt_sample", "sampling triples are spelled differently on the two sides"),
     "kurt_value": ("kurt_brdf", "without Fresnel and weight, which the kernel applies to colours"),
+    "kurt_widened_d": ("widened_d", "models are modules in the oracle"),
+    "widened_form": ("quadratic_form", "the oracle's has the sum of both covariances"),
     "irradiance_over_pi": ("irradiance", "the shader's coefficients have 1/pi in them"),
     "slope_from_perceptual": ("map_metallic_roughness", "the first step of the mapping"),
     "schlick_weight": ("schlick_fresnel", "the fifth power alone"),
 }
 
 # Functions without a twin: why none is needed.
-WITHOUT_TWIN: dict[str, str] = {}
+WITHOUT_TWIN = {
+    f"lobe_{name}": "the switch between models, which are modules in the oracle"
+    for name in ("d", "rest", "sample", "pdf", "widened_d", "filter_slope")
+}
 
 
 def glsl_functions():
@@ -43,10 +48,8 @@ def glsl_functions():
 
 def oracle_functions():
     names = set()
-    for module in pkgutil.iter_modules(burnish.oracle.__path__):
-        names |= {
-            n for n in vars(importlib.import_module(f"burnish.oracle.{module.name}")) if not n.startswith("_")
-        }
+    for module in pkgutil.walk_packages(burnish.oracle.__path__, "burnish.oracle."):
+        names |= {n for n in vars(importlib.import_module(module.name)) if not n.startswith("_")}
     return names
 
 

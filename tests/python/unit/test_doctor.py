@@ -92,7 +92,7 @@ def test_doctor_and_help_run_without_the_extension(error):
 
 
 def test_oracle_needs_no_extension():
-    code = "import burnish.oracle.kurt_lobe; print('fine')"
+    code = "import burnish.oracle.lobe.kurt; print('fine')"
     assert run(WITHOUT_EXTENSION.format(error=NOT_BUILT) + code).stdout == "fine\n"
 
 

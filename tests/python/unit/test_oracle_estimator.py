@@ -14,7 +14,7 @@ from burnish.oracle.estimator import (
 )
 from burnish.oracle.frame import frame_from_tangent
 from burnish.oracle.importance import importance_half_vectors
-from burnish.oracle.kurt_lobe import KurtLobe, kurt_d
+from burnish.oracle.lobe.kurt import KurtLobe, kurt_d
 from burnish.oracle.metallic_roughness import Material
 from burnish.oracle.pyramid import build_pyramid
 from burnish.oracle.reference import shade_reference

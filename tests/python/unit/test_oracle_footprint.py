@@ -10,7 +10,7 @@ from burnish.oracle.footprint import (
     published_area,
     published_texels,
 )
-from burnish.oracle.kurt_lobe import kurt_pdf_omega_i
+from burnish.oracle.lobe.kurt import kurt_pdf_omega_i
 
 
 def test_level_of_a_texel_count():

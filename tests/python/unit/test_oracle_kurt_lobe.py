@@ -3,7 +3,7 @@ import pytest
 
 from burnish.oracle.arrays import dot, normalize, reflect
 from burnish.oracle.chi_square import chi_square_test, sidak_level
-from burnish.oracle.kurt_lobe import (
+from burnish.oracle.lobe.kurt import (
     MIN_X1,
     KurtLobe,
     grazing_factor,

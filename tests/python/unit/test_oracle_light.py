@@ -7,7 +7,7 @@ from burnish.oracle.albedo import blend_albedo, directional_albedo
 from burnish.oracle.arrays import dot, normalize
 from burnish.oracle.cube_map import texel_directions, texel_solid_angle
 from burnish.oracle.estimator import shade_diffuse
-from burnish.oracle.kurt_lobe import kurt_sample
+from burnish.oracle.lobe.kurt import kurt_sample
 from burnish.oracle.metallic_roughness import MetallicRoughness, map_metallic_roughness
 from burnish.oracle.spherical_harmonics import harmonics, irradiance, project_cube
 

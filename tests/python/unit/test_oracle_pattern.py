@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 
 from burnish.oracle.importance import fibonacci, hammersley, point_set, radical_inverse
-from burnish.oracle.kurt_lobe import kurt_q
+from burnish.oracle.lobe.kurt import kurt_q
 from burnish.oracle.regular_pattern import choose_pattern, largest_angle, lobe_solid_angle, sample_pattern
 
 

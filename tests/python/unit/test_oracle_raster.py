@@ -4,7 +4,7 @@ import pytest
 from burnish.oracle.arrays import normalize
 from burnish.oracle.cube_map import sample_cube, texel_directions
 from burnish.oracle.estimator import Regular
-from burnish.oracle.kurt_lobe import KurtLobe
+from burnish.oracle.lobe.kurt import KurtLobe
 from burnish.oracle.metallic_roughness import Material
 from burnish.oracle.pyramid import build_pyramid
 from burnish.oracle.raster import Camera, Object, camera_rays, cast_rays, gather_triangles, interpolate

@@ -7,7 +7,7 @@ from burnish.oracle.arrays import normalize, reflect
 from burnish.oracle.cube_map import texel_directions, texel_solid_angle
 from burnish.oracle.estimator import local_frame
 from burnish.oracle.frame import orthonormal_basis
-from burnish.oracle.kurt_lobe import KurtLobe, grazing_factor, kurt_d
+from burnish.oracle.lobe.kurt import KurtLobe, grazing_factor, kurt_d
 from burnish.oracle.matched import Matched, read_matched, shade_matched
 from burnish.oracle.pyramid import build_pyramid
 from burnish.oracle.reference import shade_reference

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from burnish.oracle.arrays import normalize
-from burnish.oracle.kurt_lobe import KurtLobe, kurt_sample, slopes
+from burnish.oracle.lobe.kurt import KurtLobe, kurt_sample, slopes
 from burnish.oracle.matched import place_means
 from burnish.oracle.matched_means import mean_points, view_means, weighted_place
 from burnish.oracle.matched_table import load_table, mixture_at, nearest_aspect, nearest_view

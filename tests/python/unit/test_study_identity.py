@@ -19,7 +19,10 @@ LOBE = {"roughness": (0.2, 0.075), "r0": (1.0, 0.5, 0.25), "alpha": 0.5, "weight
 def test_materials_are_made_again_from_their_description():
     material = burnish.Material(
         diffuse=(0.5, 0.25, 0.125),
-        lobes=[burnish.KurtLobe(**LOBE), burnish.KurtLobe(0.5, conserve_energy=True)],
+        lobes=[
+            burnish.KurtLobe(**LOBE),
+            burnish.KurtLobe(0.5, conserve_energy=True),
+        ],
         emissive=(0.0, 1.0, 0.0),
         name="lacquer",
         double_sided=True,

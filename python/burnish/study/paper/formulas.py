@@ -11,7 +11,7 @@ import numpy as np
 from burnish.environments import Float64
 from burnish.oracle.albedo import directional_albedo
 from burnish.oracle.arrays import reflect
-from burnish.oracle.kurt_lobe import kurt_d
+from burnish.oracle.lobe.kurt import kurt_d
 from burnish.oracle.regular_pattern import choose_pattern, sample_pattern
 
 GRAZING_DEGREES = 85.0

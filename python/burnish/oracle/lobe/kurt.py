@@ -1,38 +1,24 @@
 """The glossy lobe of Kurt et al. 2010: density, reflectance, sampling."""
 
 from dataclasses import dataclass
-from typing import Any, Protocol
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
-from .arrays import Array, as_array, dot, normalize
+from ..albedo import directional_albedo
+from ..arrays import Array, as_array, dot, normalize
+from ..lobe_map import reflection_map
+from .base import MIN_COS_O, MIN_X1, Reflected, Values, quadratic_form, schlick_fresnel, slopes
 
-#: Smallest cosine of the view a lobe is evaluated at.
-MIN_COS_O = 1e-4
-#: Smallest first random number: ln of it is finite.
-MIN_X1 = 2.0**-24
+#: Of the lobe in the plane of slopes: exp(-|p|^2)/pi, p in units of roughness.
+DENSITY = "gaussian"
+#: Slope of the lobe that prefiltered levels show it by, over its own.
+FILTER_SLOPE = 1.0
 # Past this exponent q is 0 for every purpose, and exp would leave float64's normal range.
 _MAX_EXPONENT = 700.0
 # Below this cosine cos_h^4 leaves float32's range; q is 0 long before.
 _MIN_COS_H = 1e-11
-
-
-class LobeLike(Protocol):
-    """What the oracle reads of a lobe; `burnish.KurtLobe` has it too."""
-
-    @property
-    def roughness(self) -> Any: ...  # noqa: D102
-    @property
-    def r0(self) -> Any: ...  # noqa: D102
-    @property
-    def alpha(self) -> float: ...  # noqa: D102
-    @property
-    def weight(self) -> Any: ...  # noqa: D102
-    @property
-    def rotation(self) -> float: ...  # noqa: D102
-    @property
-    def conserve_energy(self) -> bool: ...  # noqa: D102
 
 
 @dataclass(frozen=True)
@@ -45,18 +31,6 @@ class KurtLobe:
     weight: Any = 1.0
     rotation: float = 0.0  # radians, turns the tangent counter-clockwise about the normal
     conserve_energy: bool = False  # divide by the albedo of r0 = 1 where that exceeds 1
-
-
-def slopes(lobe: LobeLike) -> tuple[float, float]:
-    """Roughness along tangent and bitangent."""
-    mx, my = np.broadcast_to(as_array(lobe.roughness), 2)
-    return float(mx), float(my)
-
-
-def schlick_fresnel(u: npt.ArrayLike, r0: npt.ArrayLike) -> Array:
-    """Return F(u) = r0 + (1 - r0)(1 - u)^5, u = o.h in [0, 1]; broadcasts."""
-    r0 = as_array(r0)
-    return r0 + (1 - r0) * (1 - np.clip(as_array(u), 0, 1)) ** 5
 
 
 def kurt_exponent(h: npt.ArrayLike, mx: npt.ArrayLike, my: npt.ArrayLike) -> Array:
@@ -90,7 +64,7 @@ def grazing_factor(cos_i: npt.ArrayLike, cos_o: npt.ArrayLike, alpha: float) -> 
     return result
 
 
-def kurt_brdf(omega_i: npt.ArrayLike, omega_o: npt.ArrayLike, lobe: LobeLike) -> Array:
+def kurt_brdf(omega_i: npt.ArrayLike, omega_o: npt.ArrayLike, lobe: Any) -> Array:
     """Return the reflectance per steradian, (..., 3), in the lobe's own frame (its rotation already applied).
 
     0 where light or eye are below the surface.
@@ -127,3 +101,74 @@ def kurt_pdf_omega_i(h: npt.ArrayLike, omega_o: npt.ArrayLike, mx: npt.ArrayLike
     """
     o_h = dot(omega_o, h)
     return np.where(o_h > 0, kurt_pdf(h, mx, my) / (4 * np.where(o_h > 0, o_h, 1.0)), 0.0)
+
+
+# q = exp(-40) = 4e-18: what is narrower adds nothing to a sum in float64.
+_LAST_EXPONENT = 40.0
+
+
+def reflect(omega_o: Array, lobe: Any, slope: Array, bend: Array | float = 1.0) -> Reflected:
+    """Mirror local views (..., 3) at half-vectors g = (slope, 1), to bend 2 (o.g)/|g|^2 g - o.
+
+    The base is cos_i^(1-alpha) cos_o^-alpha/cos_h.
+    """
+    g = np.concatenate([slope, np.ones((*slope.shape[:-1], 1))], axis=-1)
+    length2, product = dot(g, g), dot(omega_o, g)
+    omega_i = (bend * 2 * product / length2)[..., None] * g - omega_o
+    grazing = grazing_factor(np.where(product > 0, omega_i[..., 2], 0.0), omega_o[..., 2], lobe.alpha)
+    schlick = schlick_fresnel(product / np.sqrt(length2), 0.0)
+    return Reflected(omega_i, np.sqrt(length2) * grazing, schlick)
+
+
+def linear_map(omega_o: Array, lobe: Any, slope: Array, columns: Array) -> Array:
+    """Derivative of the direction for changes of the slope along two columns, see `reflection_map`."""
+    return reflection_map(omega_o, slope, columns)
+
+
+def stretch(omega_o: Array, lobe: Any, one: Array, other: Array) -> Array:
+    """Solid angle of directions over the area of slopes between two, 4 (o.h) cos_h^3 (...).
+
+    cos_h^-4 is the product of |g|^2 of both: they lie to either side of where half-vectors are reflected to
+    the horizon the fastest.
+    """
+    product = np.maximum(dot(omega_o[..., :2], 0.5 * (one + other)) + omega_o[..., 2], 0)
+    result: Array = 4 * product / ((1 + dot(one, one)) * (1 + dot(other, other)))
+    return result
+
+
+def values(omega_i: Array, omega_o: Array, lobe: Any) -> Values:
+    """F cos_i at directions (3, k) above the horizon for one view (3,), without Fresnel."""
+    mx, my = slopes(lobe)
+    x, y, z = omega_i + omega_o[:, None]
+    exponent = (x / (mx * z)) ** 2 + (y / (my * z)) ** 2
+    near = np.flatnonzero(exponent < _LAST_EXPONENT)
+    x, y, z = x[near], y[near], z[near]
+    length2 = x * x + y * y + z * z
+    # |i + o|^2 = 2 + 2 i.o and (o.h)^2 = (1 + i.o)/2: o.h = |i + o|/2.
+    o_h = 0.5 * np.sqrt(length2)
+    d = np.exp(-exponent[near]) * (length2 / (z * z)) ** 2 / (np.pi * mx * my)
+    value = d / (4 * o_h) * grazing_factor(omega_i[2, near], omega_o[2], lobe.alpha)
+    return Values(near, value, o_h)
+
+
+def widened_d(slope: Array, lobe: Any, covariance: Array) -> Array:
+    """D cos_h^4 of a lobe whose slopes have a covariance (..., 2, 2) on top of their own, diag(m^2)/2."""
+    mx, my = slopes(lobe)
+    square, determinant = quadratic_form(covariance + 0.5 * np.diag([mx * mx, my * my]), slope)
+    result: Array = np.exp(-0.5 * square) / (2 * np.pi * np.sqrt(determinant))
+    return result
+
+
+def rest(omega_i: Array, omega_o: Array, o_h: Array, lobe: Any) -> Array:
+    """F cos_i/D without Fresnel, (...)."""
+    return grazing_factor(omega_i[..., 2], omega_o[..., 2], lobe.alpha) / (4 * o_h)
+
+
+def lit_exponent(lobe: Any) -> float:
+    """Power of cos_i in the base, which changes most from view to view."""
+    return 1 - float(lobe.alpha)
+
+
+def albedo(omega_o: Array, lobe: Any) -> Array:
+    """E_1 and E_s, (..., 2), see `directional_albedo`."""
+    return directional_albedo(omega_o, lobe.roughness, lobe.alpha)

@@ -1,0 +1,1 @@
+"""Models of lobes, one file each, and what they share."""

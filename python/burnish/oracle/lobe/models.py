@@ -1,0 +1,16 @@
+"""Models of lobes: each is one file, and a name in this list."""
+
+from types import ModuleType
+from typing import Any
+
+from . import kurt
+
+MODELS: dict[str, ModuleType] = {"KurtLobe": kurt}
+
+
+def model_of(lobe: Any) -> ModuleType:
+    """The model of a lobe, the oracle's or burnish's own."""
+    name = type(lobe).__name__
+    if name not in MODELS:
+        raise ValueError(f"lobe: expected one of {', '.join(MODELS)}, got {name}")
+    return MODELS[name]
