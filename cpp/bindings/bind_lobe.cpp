@@ -19,6 +19,20 @@ std::string repr(const KurtLobe& lobe) {
                    ", conserve_energy=", lobe.conserve_energy ? "True" : "False", ")");
 }
 
+GgxLobe make_ggx_lobe(const Pair& roughness, const Color& r0, const Color& f90, const Color& weight,
+                      float rotation) {
+    GgxLobe lobe{vec2_of(roughness), vec3_of(r0), vec3_of(f90), vec3_of(weight), rotation};
+    validate(lobe);
+    return lobe;
+}
+
+std::string repr(const GgxLobe& lobe) {
+    return message("GgxLobe(roughness=(", lobe.roughness.x, ", ", lobe.roughness.y, "), r0=(", lobe.r0.x,
+                   ", ", lobe.r0.y, ", ", lobe.r0.z, "), f90=(", lobe.f90.x, ", ", lobe.f90.y, ", ",
+                   lobe.f90.z, "), weight=(", lobe.weight.x, ", ", lobe.weight.y, ", ", lobe.weight.z,
+                   "), rotation=", lobe.rotation, ")");
+}
+
 void bind_kurt_lobe(py::module_& m) {
     py::class_<KurtLobe>(m, "KurtLobe",
                          R"(One glossy lobe after Kurt et al. 2010. It does not change once made.
@@ -64,10 +78,54 @@ ValueError
         .def("__repr__", [](const KurtLobe& l) { return repr(l); });
 }
 
+void bind_ggx_lobe(py::module_& m) {
+    py::class_<GgxLobe>(
+        m, "GgxLobe",
+        R"(One glossy lobe after Trowbridge and Reitz 1975 (GGX). It does not change once made.
+
+f = weight F(u) D V with F(u) = r0 + (f90 - r0)(1 - u)^5, u = o.h, D = 1/(pi ax ay ((hx/ax)^2 + (hy/ay)^2 + hz^2)^2) and
+Smith's height-correlated V = 1/(2 (co a(i) + ci a(o))), a(v)^2 = vz^2 + (ax vx)^2 + (ay vy)^2.
+
+Parameters
+----------
+roughness : float or (float, float)
+    alpha along tangent and bitangent, in 1e-6..1, the square of glTF's perceptual roughness. One number is an
+    isotropic lobe.
+r0 : float or (float, float, float)
+    Reflectance at normal incidence, in 0..1.
+f90 : float or (float, float, float)
+    Reflectance along the surface, in 0..1. r0 = f90 switches Fresnel off.
+weight : float or (float, float, float)
+    Colour, >= 0.
+rotation : float
+    Radians; turns the tangent counter-clockwise about the normal.
+
+Raises
+------
+ValueError
+    If a number is out of its range.)")
+        .def(py::init(&make_ggx_lobe), py::arg("roughness") = Pair(0.2f), py::arg("r0") = Color(1.0f),
+             py::arg("f90") = Color(1.0f), py::arg("weight") = Color(1.0f), py::arg("rotation") = 0.0f)
+        .def_property_readonly(
+            "roughness", [](const GgxLobe& l) { return tuple_of(l.roughness); },
+            "(float, float): alpha along tangent and bitangent.")
+        .def_property_readonly(
+            "r0", [](const GgxLobe& l) { return tuple_of(l.r0); },
+            "(float, float, float): reflectance at normal incidence.")
+        .def_property_readonly(
+            "f90", [](const GgxLobe& l) { return tuple_of(l.f90); },
+            "(float, float, float): reflectance along the surface.")
+        .def_property_readonly(
+            "weight", [](const GgxLobe& l) { return tuple_of(l.weight); }, "(float, float, float): colour.")
+        .def_readonly("rotation", &GgxLobe::rotation, "Radians about the normal.")
+        .def("__repr__", [](const GgxLobe& l) { return repr(l); });
+}
+
 } // namespace
 
 void bind_lobes(py::module_& m) {
     bind_kurt_lobe(m);
+    bind_ggx_lobe(m);
 }
 
 } // namespace burnish

@@ -67,7 +67,7 @@ Parameters
 ----------
 diffuse : float or (float, float, float)
     Diffuse reflectance, in 0..1.
-lobes : list of KurtLobe
+lobes : list of KurtLobe or GgxLobe
     At most four.
 emissive : float or (float, float, float)
     Radiance given off, >= 0.

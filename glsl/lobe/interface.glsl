@@ -2,6 +2,14 @@
 #ifndef BURNISH_LOBE_INTERFACE
 #define BURNISH_LOBE_INTERFACE
 
+// A place of a lobe's plane reflects this.
+struct LobePoint {
+    vec3 omega_i;
+    float cos_d;
+    float base;    // f cos_i without Fresnel over density and stretch, 0 below the horizon
+    float stretch; // solid angle over the area of the plane
+};
+
 // A lobe under a light of some extent: its slopes have the light's covariance on top of their own.
 struct Widened {
     vec2 slope; // of the half-vector toward the light's middle

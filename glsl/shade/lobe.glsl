@@ -71,7 +71,20 @@ float cos_o_power(float cos_o, float alpha) {
     return pow(o, -alpha);
 }
 
+// A place of the lobe's plane, its weight and its texels: face_texels/4 times the area it stands for.
+Lookup place_in_plane(LobeView v, vec4 entry) {
+    LobePoint point = lobe_at(shape_of(v), v.local_o, entry.xy);
+    Lookup lookup;
+    lookup.weight = entry.z * point.base;
+    lookup.schlick = HAS_FRESNEL ? schlick_weight(point.cos_d) : 0.0;
+    lookup.density = 0.0;
+    CubePlace place = place_on_cube(v.frame * point.omega_i);
+    lookup.aim = aim_at_map(place, v.layer, mip_level(texels_exact(entry.w, point.stretch, place.inverse_largest)));
+    return lookup;
+}
+
 Lookup place_lookup(LobeView v, vec4 entry) {
+    if (!has_fixed_half_vectors(v.model)) return place_in_plane(v, entry);
     vec2 slope = TABLE >= TABLE_SCALED_REGULAR ? entry.xy * v.roughness : entry.xy;
     float inverse_c = 1.0 + dot(slope, slope);
     float c = 1.0 / inverse_c;

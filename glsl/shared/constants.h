@@ -143,6 +143,7 @@ SHARED_CONST uint SOURCE_PIXELS = 0u;
 SHARED_CONST uint SOURCE_POINTS = 1u;
 // Models of lobes.
 SHARED_CONST uint MODEL_KURT = 0u;
+SHARED_CONST uint MODEL_GGX = 1u;
 SHARED_CONST uint MODEL_BITS = 4u;
 SHARED_CONST uint ALPHA_ZERO = 0u;    // cos_i
 SHARED_CONST uint ALPHA_HALF = 1u;    // a square root

@@ -7,6 +7,7 @@ from typing import Any, Literal, TypeAlias
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from burnish._lobes import GgxLobe as GgxLobe
 from burnish._lobes import KurtLobe as KurtLobe
 from burnish._samplers import Importance as Importance
 from burnish._samplers import Matched as Matched
@@ -94,7 +95,7 @@ class Material:
     def __init__(
         self,
         diffuse: _Color = 0.0,
-        lobes: Sequence[KurtLobe] = (),
+        lobes: Sequence[KurtLobe | GgxLobe] = (),
         emissive: _Color = 0.0,
         name: str = "",
         double_sided: bool = False,
@@ -102,7 +103,7 @@ class Material:
     @property
     def diffuse(self) -> tuple[float, float, float]: ...
     @property
-    def lobes(self) -> tuple[KurtLobe, ...]: ...
+    def lobes(self) -> tuple[KurtLobe | GgxLobe, ...]: ...
     @property
     def emissive(self) -> tuple[float, float, float]: ...
     @property

@@ -2,13 +2,14 @@
 
 from typing import Any, TypeAlias
 
-from burnish._core import KurtLobe
+from burnish._core import GgxLobe, KurtLobe
 
-Lobe: TypeAlias = KurtLobe
+Lobe: TypeAlias = KurtLobe | GgxLobe
 
 #: Model, its class, and its parameters as the constructor takes them.
 MODELS: dict[str, tuple[type, tuple[str, ...]]] = {
     "kurt": (KurtLobe, ("roughness", "r0", "alpha", "weight", "rotation", "conserve_energy")),
+    "ggx": (GgxLobe, ("roughness", "r0", "f90", "weight", "rotation")),
 }
 
 
@@ -48,9 +49,9 @@ def make_lobe(description: dict[str, Any]) -> Lobe:
 
 def grazing_exponent(lobe: Lobe) -> float:
     """Power of cosines in the lobe, 0 of models that have none."""
-    return lobe.alpha
+    return lobe.alpha if isinstance(lobe, KurtLobe) else 0.0
 
 
 def has_fresnel(lobe: Lobe) -> bool:
     """Whether the reflectance depends on the angle."""
-    return lobe.has_fresnel
+    return lobe.has_fresnel if isinstance(lobe, KurtLobe) else lobe.r0 != lobe.f90

@@ -21,7 +21,8 @@ LobeShape kurt_shape(float x, float y) {
 /// A dielectric of each model.
 std::vector<LobeShape> dielectrics() {
     const glm::vec3 r0(0.04f);
-    return {facts(KurtLobe{.roughness = glm::vec2(0.2f), .r0 = r0, .alpha = 0.5f}).shape};
+    return {facts(KurtLobe{.roughness = glm::vec2(0.2f), .r0 = r0, .alpha = 0.5f}).shape,
+            facts(GgxLobe{.roughness = glm::vec2(0.2f), .r0 = r0}).shape};
 }
 
 TEST(MatchedTable, WeightsOfEveryRowSumToOne) {

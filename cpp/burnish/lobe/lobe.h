@@ -4,11 +4,12 @@
 #include <string>
 #include <variant>
 
+#include "burnish/lobe/ggx.h"
 #include "burnish/lobe/kurt.h"
 
 namespace burnish {
 
-using Lobe = std::variant<KurtLobe>;
+using Lobe = std::variant<KurtLobe, GgxLobe>;
 
 /// Throws std::invalid_argument, naming field, range and value; `prefix` goes before the field's name.
 inline void validate(const Lobe& lobe, const std::string& prefix = "") {

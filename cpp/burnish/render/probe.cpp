@@ -10,6 +10,7 @@
 #include "spirv/probe_display_comp.h"
 #include "spirv/probe_footprint_comp.h"
 #include "spirv/probe_frame_comp.h"
+#include "spirv/probe_ggx_lobe_comp.h"
 #include "spirv/probe_kurt_lobe_comp.h"
 #include "spirv/probe_metallic_roughness_comp.h"
 #include "spirv/probe_random_comp.h"
@@ -27,6 +28,7 @@ std::span<const uint32_t> find_spirv(const std::string& library) {
         {"cube_map", probe_cube_map_comp_spv},
         {"footprint", probe_footprint_comp_spv},
         {"frame", probe_frame_comp_spv},
+        {"ggx_lobe", probe_ggx_lobe_comp_spv},
         {"kurt_lobe", probe_kurt_lobe_comp_spv},
         {"metallic_roughness", probe_metallic_roughness_comp_spv},
         {"display", probe_display_comp_spv},

@@ -76,7 +76,7 @@ def traits_of_lobe(lobe: Lobe) -> LobeTraits:
 
     Parameters
     ----------
-    lobe : KurtLobe
+    lobe : KurtLobe or GgxLobe
         Any. The model was fitted to Kurt's lobes; others have the errors of that of their widths, until a
         probe puts them right.
     """

@@ -25,6 +25,10 @@ NAMED_OTHERWISE = {
     "grazing_term": ("grazing_factor", "the shader's takes cosines that are already clamped"),
     "sample_kurt": ("kurt_sample", "sampling triples are spelled differently on the two sides"),
     "kurt_value": ("kurt_brdf", "without Fresnel and weight, which the kernel applies to colours"),
+    "sample_ggx": ("ggx_sample", "sampling triples are spelled differently on the two sides"),
+    "ggx_pdf": ("ggx_pdf_omega_i", "of directions, the only one that there is"),
+    "ggx_rest": ("rest", "models are modules in the oracle"),
+    "ggx_widened_d": ("widened_d", "models are modules in the oracle"),
     "kurt_widened_d": ("widened_d", "models are modules in the oracle"),
     "widened_form": ("quadratic_form", "the oracle's has the sum of both covariances"),
     "irradiance_over_pi": ("irradiance", "the shader's coefficients have 1/pi in them"),
@@ -36,7 +40,7 @@ NAMED_OTHERWISE = {
 WITHOUT_TWIN = {
     f"lobe_{name}": "the switch between models, which are modules in the oracle"
     for name in ("d", "rest", "sample", "pdf", "widened_d", "filter_slope")
-}
+} | {"has_fixed_half_vectors": "the oracle places any pattern in a plane"}
 
 
 def glsl_functions():

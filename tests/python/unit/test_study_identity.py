@@ -22,6 +22,7 @@ def test_materials_are_made_again_from_their_description():
         lobes=[
             burnish.KurtLobe(**LOBE),
             burnish.KurtLobe(0.5, conserve_energy=True),
+            burnish.GgxLobe((0.5, 0.25), r0=0.25, f90=0.5),
         ],
         emissive=(0.0, 1.0, 0.0),
         name="lacquer",
@@ -41,6 +42,7 @@ def test_materials_are_made_again_from_their_description():
             {"lobes": [burnish.KurtLobe(0.1, r0=0.04, alpha=0.5)], "diffuse": 0.5},
             "diffuse + m 0.1, r0 0.04, alpha 0.5",
         ),
+        ({"lobes": [burnish.GgxLobe((0.4, 0.1), r0=0.04)]}, "ggx 0.4/0.1, r0 0.04"),
         ({"lobes": [burnish.KurtLobe(0.1)], "name": "brass"}, "brass"),
         ({}, "black"),
     ],

@@ -15,7 +15,7 @@ MIN_X1 = 2.0**-24
 
 
 class LobeLike(Protocol):
-    """What the oracle reads of a lobe; `burnish.KurtLobe` has it too."""
+    """What the oracle reads of a lobe; `burnish.KurtLobe` and `burnish.GgxLobe` have it too."""
 
     @property
     def roughness(self) -> Any: ...  # noqa: D102

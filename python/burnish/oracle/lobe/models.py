@@ -3,9 +3,9 @@
 from types import ModuleType
 from typing import Any
 
-from . import kurt
+from . import ggx, kurt
 
-MODELS: dict[str, ModuleType] = {"KurtLobe": kurt}
+MODELS: dict[str, ModuleType] = {"KurtLobe": kurt, "GgxLobe": ggx}
 
 
 def model_of(lobe: Any) -> ModuleType:
