@@ -1,4 +1,4 @@
-"""Judge `Matched` by cells against the best published sampler: the second table of docs/accuracy.md.
+"""Judge `Matched` by cells against the best published sampler: tables of docs/accuracy.md.
 
 A cell is a lobe, a band of the view's cosine, a kind of map and a count; its errors are geometric means over
 the maps of a kind. Exits with 1 while the error of `Matched` over the best rival's is above its limit in any.
@@ -17,8 +17,9 @@ from tqdm import tqdm
 
 import burnish
 from burnish import environments
-from burnish.study.cells import BANDS, COUNTS, LOBES, Cell, as_rows, judge, limit, merge_kinds
+from burnish.study.cells import BANDS, COUNTS, MODELS, Cell, as_rows, judge, limit, merge_kinds
 
+LOBES = {name: lobe for lobes in MODELS.values() for name, lobe in lobes.items()}
 Maps = dict[str, tuple[str, Callable[[], burnish.Environment]]]
 KINDS = ("real", "spots", "smooth", "suns")
 
@@ -44,7 +45,7 @@ def markdown(cells: list[Cell]) -> str:
     for count in sorted({cell.samples for cell in cells}):
         heads = [f"{kind} {low:g}-{high:g}" for kind in present for low, high in BANDS]
         lines += [f"| n = {count} | " + " | ".join(heads) + " |", "|---" * (len(heads) + 1) + "|"]
-        for lobe in LOBES:
+        for lobe in dict.fromkeys(cell.lobe for cell in cells):
             row = []
             for kind in present:
                 for band in range(len(BANDS)):
@@ -76,6 +77,7 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("files", nargs="*", type=Path, help="real maps: .hdr or .exr files")
     parser.add_argument("--face-size", type=int, default=256, help="texels along a face (default: 256)")
+    parser.add_argument("--model", choices=MODELS, default="kurt", help="of the lobes (default: kurt)")
     parser.add_argument("--points", type=int, default=240, help="points in each band (default: 240)")
     parser.add_argument("--counts", type=int, nargs="+", default=COUNTS, help="samples")
     parser.add_argument(
@@ -89,6 +91,7 @@ def main() -> None:
     made = maps(options.files, options.face_size)
     cells = judge(
         {name: make for name, (_, make) in made.items()},
+        MODELS[options.model],
         counts=options.counts,
         points=options.points,
         device=device,

@@ -7,7 +7,7 @@
 #include "lobe/kurt.glsl"
 
 // Slope of Kurt's lobe, by which prefiltered maps are made, that serves it best, over alpha.
-const float GGX_FILTER_SLOPE = 1.0;
+const float GGX_FILTER_SLOPE = 1.1;
 
 // D(h) = 1/(pi ax ay q^2): q from components, as (n.h)^2 (a^2 - 1) + 1 would cancel.
 float ggx_d(vec3 h, vec2 a) {

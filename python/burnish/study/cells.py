@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from burnish import _core
+from burnish.lobes import Lobe, model_of
 from burnish.rendering import shade
 from burnish.samplers import Sampler
 from burnish.study.calibration_points import WeightedPoints, points_at_angle
@@ -36,6 +37,23 @@ LOBES: dict[str, _core.KurtLobe] = {
     "m .1/.02": _core.KurtLobe((0.1, 0.02)),
     "m .4/.03": _core.KurtLobe((0.4, 0.03)),
 }
+
+MODELS: dict[str, dict[str, Lobe]] = {
+    "kurt": dict(LOBES),
+    "ggx": {
+        "alpha .03": _core.GgxLobe(0.03),
+        "alpha .1": _core.GgxLobe(0.1),
+        "alpha .1, r0 .04": _core.GgxLobe(0.1, r0=0.04),
+        "alpha .2": _core.GgxLobe(0.2),
+        "alpha .3": _core.GgxLobe(0.3),
+        "alpha .6": _core.GgxLobe(0.6),
+        "alpha 1": _core.GgxLobe(1.0),
+        "alpha .2/.05": _core.GgxLobe((0.2, 0.05)),
+        "alpha .4/.1": _core.GgxLobe((0.4, 0.1)),
+        "alpha .4/.05": _core.GgxLobe((0.4, 0.05)),
+    },
+}
+"""Lobes of every model that `Matched` is judged with."""
 
 WORST_RATIOS = ((6.0, 1.0), (float("inf"), 1.1))
 """Largest aspect of a lobe, and what its cells' ratios are held to."""
@@ -75,12 +93,16 @@ class Cell:
         return f"{self.lobe}, cosine {low:g} to {high:g}, {self.environment}, n = {self.samples}"
 
 
-def rivals(samples: int) -> list[Sampler]:
-    """Settings of the published samplers at one count: footprints, point sets and mip biases."""
+def rivals(samples: int, model: str = "kurt") -> list[Sampler]:
+    """Settings of the published samplers at one count: footprints, point sets and mip biases.
+
+    The published footprint is printed for Kurt's lobe alone.
+    """
     return [
         *(
             _core.Regular(samples, footprint=footprint, mip_bias=bias)
             for footprint in ("published", "exact")
+            if footprint == "exact" or model == "kurt"
             for bias in (-1.0, 0.0)
         ),
         *(
@@ -92,7 +114,7 @@ def rivals(samples: int) -> list[Sampler]:
 
 
 def band_points(
-    environment: _core.Environment, lobe: _core.KurtLobe, count: int, rng: np.random.Generator
+    environment: _core.Environment, lobe: Lobe, count: int, rng: np.random.Generator
 ) -> list[WeightedPoints]:
     """Draw points of each band, cosines of the view even within it.
 
@@ -133,7 +155,7 @@ def _errors(color: Float32, truth: Float32, groups: Sequence[WeightedPoints]) ->
 
 def judge(
     environments: Mapping[str, Callable[[], _core.Environment]],
-    lobes: Mapping[str, _core.KurtLobe] = LOBES,
+    lobes: Mapping[str, Lobe] = LOBES,
     counts: Sequence[int] = COUNTS,
     points: int = 240,
     seed: int = 31,
@@ -179,7 +201,7 @@ def judge(
             places = normals, tangents, views
             truth = _truth(environment, material, truth_sampler, places, device, truths)
             for count in counts:
-                others = rivals(count)
+                others = rivals(count, model_of(lobe))
                 ours, *theirs = (
                     _errors(shade(environment, material, sampler, *places, device=device), truth, groups)
                     for sampler in (_core.Matched(count), *others)
@@ -214,7 +236,7 @@ def merge_kinds(cells: Iterable[Cell], kinds: Mapping[str, str]) -> list[Cell]:
     return merged
 
 
-def limit(lobe: _core.KurtLobe) -> float:
+def limit(lobe: Lobe) -> float:
     """What the ratios of a lobe's cells are held to."""
     slopes = np.broadcast_to(np.asarray(lobe.roughness), 2)
     aspect = float(np.max(slopes) / np.min(slopes))

@@ -18,7 +18,7 @@ from .base import MIN_COS_O, Reflected, Values, grazing_reflectance, quadratic_f
 #: Of the lobe in its plane: (1 + |x|^2)^-2/pi.
 DENSITY = "student"
 #: Slope of Kurt's lobe, by which prefiltered maps are made, that serves it best, over alpha.
-FILTER_SLOPE = 1.0
+FILTER_SLOPE = 1.1
 # Least height of a normal of the stretched hemisphere: its half-vector has a slope.
 _LEAST_HEIGHT = 1e-9
 # Sines below this have no azimuth.
