@@ -51,7 +51,8 @@ py::dict plan_dict(const Scene& scene, const Sampler& sampler, int64_t spp, cons
     const Plan plan = make_plan(scene, settings, suns);
     py::list passes, classes;
     for (const PassLine& line : plan.passes)
-        passes.append(py::dict(py::arg("name") = line.name, py::arg("reason") = line.reason));
+        passes.append(py::dict(py::arg("name") = line.name(), py::arg("kind") = pass_name(line.kind),
+                               py::arg("reason") = line.reason));
     for (const ShadeClass& one : plan.classes) {
         classes.append(py::dict(
             py::arg("effects") = effect_names(one.variant), py::arg("values") = values_dict(one.variant),

@@ -41,7 +41,8 @@ py::dict values_dict(const Variant& variant) {
 py::dict report_dict(const render::Report& report) {
     py::list passes, classes;
     for (const vulkan::PassTime& pass : report.passes)
-        passes.append(py::dict(py::arg("name") = pass.name, py::arg("milliseconds") = pass.milliseconds));
+        passes.append(py::dict(py::arg("name") = pass.name, py::arg("kind") = pass.kind,
+                               py::arg("milliseconds") = pass.milliseconds));
     std::string used;
     for (const render::ClassReport& one : report.classes) {
         classes.append(py::dict(py::arg("effects") = effect_names(one.variant),

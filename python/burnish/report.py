@@ -39,7 +39,7 @@ class Report:
 
     @property
     def passes(self) -> list[dict[str, Any]]:
-        """``name`` and ``milliseconds`` of every pass that ran, by the GPU's own clock, in order."""
+        """``name``, ``kind`` and ``milliseconds`` of every pass that ran, by the device's clock, in order."""
         return list(self._data.get("passes", []))
 
     @property

@@ -107,8 +107,8 @@ TEST(Render, ReportNamesThePassesThatThePlanNamed) {
     const Frame frame = renderer().render(scene, scene.default_camera(), settings);
     std::set<std::string> ran = pass_names(frame.report);
     for (const PassLine& line : plan.passes) {
-        EXPECT_TRUE(ran.contains(line.name)) << line.name;
-        EXPECT_FALSE(line.reason.empty()) << line.name;
+        EXPECT_TRUE(ran.contains(line.name())) << line.name();
+        EXPECT_FALSE(line.reason.empty()) << line.name();
     }
     EXPECT_TRUE(ran.contains("accumulate"));
     const Frame single = renderer().render(scene, scene.default_camera(), small_settings());

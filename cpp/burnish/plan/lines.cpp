@@ -201,33 +201,4 @@ void warn_of_missing_tangents(const Scene& scene, Plan& plan) {
     }
 }
 
-void add_pass_lines(Plan& plan) {
-    const auto add = [&](const char* name, std::string reason) {
-        plan.passes.push_back({name, std::move(reason)});
-    };
-    const bool is_reference = plan.sampler.is_truth;
-    if (plan.has_lookups && plan.sampler.levels != MapLevels::none)
-        add("pyramid",
-            message(pyramid_filter_name(plan.settings.filter), " levels of ", plan.environments.size(),
-                    plan.environments.size() == 1 ? " map" : " maps", ", once per map"));
-    if (plan.has_lookups && !plan.sampler.levels_reason.empty()) add("prefilter", plan.sampler.levels_reason);
-    if (!plan.diffuse_environments.empty() && !is_reference)
-        add("irradiance", message("cosine sums over every texel of ", plan.diffuse_environments.size(),
-                                  plan.diffuse_environments.size() == 1 ? " map" : " maps",
-                                  ", which something diffuse sees; on the host, once per map"));
-    if (set_count(plan, MapLookup::sampler) < plan.map_sets.size())
-        add("pack", "pairs of texels for the software lookup, once per map");
-    add("surface", plan.has_varying
-                       ? "rasterises into the wide G-buffer: textures or vertex colours vary over a surface"
-                       : "rasterises into 8 bytes a pixel and depth");
-    add("tiles", message("lists the 8x8 tiles of ", plan.classes.size(),
-                         plan.classes.size() == 1 ? " shade class" : " shade classes",
-                         plan.has_background ? " and of the background" : ""));
-    for (size_t k = 0; k < plan.classes.size(); ++k)
-        plan.passes.push_back({message(is_reference ? "reference " : "shade ", k), plan.classes[k].reason});
-    if (plan.has_background) add("background", "the environment where no object is");
-    if (plan.settings.spp > 1) add("accumulate", message("mean of ", plan.settings.spp, " pictures"));
-    add("read back", "picture, depth and normals to the host");
-}
-
 } // namespace burnish

@@ -12,7 +12,6 @@ const char* describe_diffuse(const SamplerFacts& sampler);
 /// "2 of 5 materials, samples from a buffer ...": why this pipeline exists.
 std::string describe(const ShadeClass& one, const Scene& scene, const Plan& plan);
 void add_effect_lines(const Scene& scene, Plan& plan);
-void add_pass_lines(Plan& plan);
 /// Says where brushed surfaces have no direction of their own.
 void warn_of_missing_tangents(const Scene& scene, Plan& plan);
 

@@ -252,7 +252,7 @@ Plan make_plan(const Scene& scene, const PlanSettings& settings, SunCache& suns)
         plan.warnings.push_back(
             "prefiltered maps are round: brushed lobes reflect as the round ones of slope sqrt(mx my)");
     add_effect_lines(scene, plan);
-    add_pass_lines(plan);
+    plan.passes = passes_of(plan);
     return plan;
 }
 

@@ -12,6 +12,7 @@
 #include "burnish/light/pyramid_filter.h"
 #include "burnish/light/sun_split.h"
 #include "burnish/plan/map_lookup.h"
+#include "burnish/plan/passes.h"
 #include "burnish/plan/variant.h"
 #include "burnish/sampler/sampler.h"
 #include "burnish/scene/scene.h"
@@ -40,11 +41,6 @@ struct PlanSettings {
 struct EffectLine {
     std::string name;
     bool is_on = false;
-    std::string reason;
-};
-
-struct PassLine {
-    std::string name;
     std::string reason;
 };
 

@@ -1,5 +1,6 @@
 #include "burnish/render/accumulate_pass.h"
 
+#include "burnish/plan/passes.h"
 #include "burnish/render/shade_pass.h"
 #include "shared/constants.h"
 #include "shared/records.h"
@@ -27,7 +28,7 @@ void AccumulatePass::record(vulkan::Commands& commands, uint32_t picture) const 
     const shared::AccumulateRecord push{uint32_t(pixel_count_), picture == 0 ? 1u : 0u,
                                         1.0f / float(picture_count_), display_scale_};
     const GroupRows rows = fold_groups((pixel_count_ + 63) / 64);
-    commands.begin_pass("accumulate");
+    commands.begin_pass(pass_name(PassKind::accumulate));
     commands.dispatch(*pipelines_[k], sets_[k], vulkan::push_bytes(push), rows.length, rows.count);
     commands.end_pass();
 }

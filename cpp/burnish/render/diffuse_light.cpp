@@ -22,7 +22,7 @@ std::vector<DiffuseLight> DiffuseLights::of_plan(const Plan& plan, std::vector<v
     std::optional<double> made_ms;
     for (const uint32_t k : plan.diffuse_environments)
         lights[k] = of(plan.whole_environments[k], *form, made_ms);
-    if (made_ms) times.push_back({"irradiance", *made_ms});
+    if (made_ms) times.push_back({pass_name(PassKind::irradiance), *made_ms});
     return lights;
 }
 

@@ -136,7 +136,7 @@ void EnvironmentMaps::make(MapTools& tools, uint32_t first_cube, EnvironmentSpan
             pack_pairs(image, first_level, first_cube, cube_count, room_.pairs);
         else
             pack_pairs(levels, face_size(), first_cube, cube_count, room_.pairs);
-        pass_times_.push_back({"pack", watch.milliseconds()});
+        pass_times_.push_back({pass_name(PassKind::pack), watch.milliseconds()});
     };
     const auto submit = [&](vulkan::Commands& commands) {
         commands.submit();
@@ -144,7 +144,7 @@ void EnvironmentMaps::make(MapTools& tools, uint32_t first_cube, EnvironmentSpan
     };
     vulkan::Commands commands(device);
     if (settings_.filter) {
-        commands.begin_pass("pyramid");
+        commands.begin_pass(pass_name(PassKind::pyramid));
         tools.pyramid().record(commands, image, first_cube, cube_count, *settings_.filter,
                                is_staged ? Pyramid::Finest::staged : Pyramid::Finest::in_image);
         commands.end_pass();
@@ -156,7 +156,7 @@ void EnvironmentMaps::make(MapTools& tools, uint32_t first_cube, EnvironmentSpan
     if (!settings_.kernel) return;
 
     vulkan::Commands after(device);
-    after.begin_pass("prefilter");
+    after.begin_pass(pass_name(PassKind::prefilter));
     tools.prefilter().record(after, image, first_cube, cube_count, settings_.lookup, room_.pairs,
                              *settings_.kernel, *settings_.filter);
     after.end_pass();

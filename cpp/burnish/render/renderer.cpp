@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "burnish/error.h"
-#include "burnish/render/accumulate_pass.h"
 #include "burnish/render/filter_offsets.h"
 #include "burnish/render/stopwatch.h"
 #include "burnish/render/view.h"
@@ -117,94 +116,113 @@ Frame Renderer::draw(const Scene& scene, const Camera& camera, const RenderSetti
 
 std::optional<Frame> Renderer::draw_once(const Scene& scene, const Camera& camera,
                                          const RenderSettings& settings, bool counts_non_finite) {
+    const std::unique_ptr<FrameWork> work = prepare_frame(scene, camera, settings, counts_non_finite);
+    const auto run_reference = [&] {
+        this->run_reference(work->plan, *work->shade, *work->reference, work->pixels(), settings.progress,
+                            work->frame.report);
+    };
+    work->passes = make_passes(*work, run_reference);
+    const uint32_t spp = work->plan.settings.spp;
+    const std::vector<glm::vec2> offsets = filter_offsets(spp);
+    for (uint32_t picture = 0; picture < spp; ++picture) {
+        draw_picture(*work, offsets[picture], picture);
+        if (settings.progress && !work->reference) settings.progress((picture + 1.0) / spp, "pictures");
+    }
+    if (work->shade->left_out_non_finite()) return std::nullopt;
+    return finish_frame(*work);
+}
+
+std::unique_ptr<FrameWork> Renderer::prepare_frame(const Scene& scene, const Camera& camera,
+                                                   const RenderSettings& settings, bool counts_non_finite) {
     const Stopwatch watch;
     if (settings.width < 1 || settings.height < 1 || settings.width > 16384 || settings.height > 16384)
         throw std::invalid_argument(
             message("size: expected 1..16384 pixels each way, got ", settings.height, " x ", settings.width));
     pipelines_.take_compile_ms();
     GpuScene& gpu_scene = prepare_scene(scene);
-    const bool is_fused = settings.plan.display_exposure && settings.plan.spp == 1;
-    const Plan plan = make_plan(scene, settings.plan);
-    const ShadeTables tables = make_shade_tables(device_, scene, plan, tables_, diffuse_);
+    auto work = std::make_unique<FrameWork>();
+    Plan& plan = work->plan = make_plan(scene, settings.plan);
+    work->tables = make_shade_tables(device_, scene, plan, tables_, diffuse_);
+    work->times = work->tables.pass_times;
+    work->maps = prepare_maps(plan, work->times);
+    work->counts_non_finite = counts_non_finite;
 
-    Frame frame;
+    Frame& frame = work->frame;
     frame.width = settings.width;
     frame.height = settings.height;
     frame.camera = camera;
-    std::vector<vulkan::PassTime> times = tables.pass_times;
-    const std::vector<std::shared_ptr<EnvironmentMaps>> maps = prepare_maps(plan, times);
     frame.has_display = plan.settings.display_exposure.has_value();
-    frame.targets = targets_->take(settings.width, settings.height, plan.has_varying, plan.settings.spp > 1,
+    const bool is_mean = plan.settings.spp > 1;
+    frame.targets = targets_->take(settings.width, settings.height, plan.has_varying, is_mean,
                                    frame.has_display, uint32_t(plan.classes.size()) + 1);
-    FrameTargets& targets = *frame.targets;
-    const bool is_shared = targets.radiance.is_host_memory();
-    frame.report = start_report(scene, plan, tables);
+    frame.report = start_report(scene, plan, work->tables);
     frame.report.width = settings.width;
     frame.report.height = settings.height;
     frame.report.triangles = gpu_scene.triangle_count();
-
-    const uint64_t pixels = uint64_t(settings.width) * settings.height;
-    const bool is_reference = plan.sampler.is_truth;
-    std::optional<ReferenceBuffers> reference;
-    if (is_reference) reference = make_reference_buffers(scene, plan, pixels);
-    const uint32_t spp = plan.settings.spp;
-    const float display_scale = std::exp2(plan.settings.display_exposure.value_or(0.0f));
-    const ShadeInputs inputs{&targets,          nullptr,           uint32_t(pixels),
-                             &targets.radiance, &targets.counters, is_fused ? &targets.display : nullptr,
-                             display_scale,     counts_non_finite};
-    const SurfacePass surface(pipelines_, gpu_scene, scene, plan, camera.world_from_camera[3], targets);
-    const ShadePass shade(pipelines_, plan, tables, maps, inputs, placeholders_,
-                          reference ? &*reference : nullptr);
-    std::optional<AccumulatePass> accumulate;
-    if (spp > 1) accumulate.emplace(pipelines_, targets, spp, pixels, frame.has_display, display_scale);
+    if (plan.sampler.is_truth) work->reference = make_reference_buffers(scene, plan, work->pixels());
+    make_frame_passes(*work, scene, gpu_scene);
     frame.report.compile_ms = pipelines_.take_compile_ms();
     frame.report.prepare_ms = watch.milliseconds() - frame.report.compile_ms;
+    return work;
+}
 
-    const std::vector<glm::vec2> offsets = filter_offsets(spp);
-    for (uint32_t picture = 0; picture < spp; ++picture) {
-        shared::ViewRecord view = make_view(camera, settings.width, settings.height, offsets[picture]);
-        view.background_map = 0;
-        view.picture = picture;
-        keep_clip_in_range(view, surface.clip_reach(view.clip_from_world));
-        if (picture == 0 && surface.has_draws() && !surface.may_show(view.clip_from_world))
-            frame.report.warnings.push_back("nothing is drawn: no object lies in the camera's view");
-        vulkan::upload(targets.view, std::span<const shared::ViewRecord>(&view, 1));
-        vulkan::Commands commands(device_);
-        if (picture == 0) shade.record_start(commands);
-        if (!plan.has_background) shade.record_clear(commands);
-        commands.begin_pass("surface");
-        surface.record(commands, targets);
-        commands.end_pass();
-        shade.record_tiles(commands);
-        if (!is_reference) shade.record_shade(commands, {});
-        shade.record_background(commands);
-        if (accumulate && !is_reference) accumulate->record(commands, picture);
-        commands.submit();
-        add_pass_times(times, commands.pass_times());
-        if (is_reference) run_reference(plan, shade, *reference, pixels, settings.progress, frame.report);
-        if (accumulate && is_reference) {
-            vulkan::Commands after(device_);
-            accumulate->record(after, picture);
-            after.submit();
-            add_pass_times(times, after.pass_times());
-        }
-        // Of all pictures the first is the nearest to the pixels' centres; later ones overwrite it.
-        if (picture == 0 && (spp > 1 || !is_shared)) frame.read_surface();
-        if (settings.progress && !is_reference) settings.progress((picture + 1.0) / spp, "pictures");
-    }
-    if (shade.left_out_non_finite()) return std::nullopt;
-    const Stopwatch read_watch;
+void Renderer::make_frame_passes(FrameWork& work, const Scene& scene, GpuScene& gpu_scene) {
+    const Plan& plan = work.plan;
+    FrameTargets& targets = *work.frame.targets;
+    const bool is_mean = plan.settings.spp > 1, has_display = work.frame.has_display;
+    const float display_scale = std::exp2(plan.settings.display_exposure.value_or(0.0f));
+    const ShadeInputs inputs{.targets = &targets,
+                             .point_count = uint32_t(work.pixels()),
+                             .radiance = &targets.radiance,
+                             .counters = &targets.counters,
+                             .display = has_display && !is_mean ? &targets.display : nullptr,
+                             .display_scale = display_scale,
+                             .counts_non_finite = work.counts_non_finite};
+    const glm::dvec3 eye(work.frame.camera.world_from_camera[3]);
+    work.surface.emplace(pipelines_, gpu_scene, scene, plan, eye, targets);
+    work.shade.emplace(pipelines_, plan, work.tables, work.maps, inputs, placeholders_,
+                       work.reference ? &*work.reference : nullptr);
+    if (is_mean)
+        work.accumulate.emplace(pipelines_, targets, plan.settings.spp, work.pixels(), has_display,
+                                display_scale);
+}
+
+void Renderer::draw_picture(FrameWork& work, glm::vec2 offset, uint32_t picture) {
+    Frame& frame = work.frame;
+    shared::ViewRecord view = make_view(frame.camera, frame.width, frame.height, offset);
+    view.background_map = 0;
+    view.picture = picture;
+    keep_clip_in_range(view, work.surface->clip_reach(view.clip_from_world));
+    if (picture == 0 && work.surface->has_draws() && !work.surface->may_show(view.clip_from_world))
+        frame.report.warnings.push_back("nothing is drawn: no object lies in the camera's view");
+    vulkan::upload(frame.targets->view, std::span<const shared::ViewRecord>(&view, 1));
+    PictureRun run(device_, picture, work.times);
+    if (picture == 0) work.shade->record_start(run.commands());
+    if (!work.plan.has_background) work.shade->record_clear(run.commands());
+    for (const Pass& pass : work.passes)
+        pass.run(run);
+    run.submit();
+    // Of all pictures the first is the nearest to the pixels' centres; later ones overwrite it.
+    const bool is_copied = work.plan.settings.spp > 1 || !frame.targets->radiance.is_host_memory();
+    if (picture == 0 && is_copied) frame.read_surface();
+}
+
+Frame Renderer::finish_frame(FrameWork& work) {
+    Frame& frame = work.frame;
+    FrameTargets& targets = *frame.targets;
+    const bool is_shared = targets.radiance.is_host_memory();
+    const Stopwatch watch;
     if (!is_shared && frame.has_display)
-        frame.display_copy = vulkan::read_elements<uint32_t>(targets.display, pixels);
+        frame.display_copy = vulkan::read_elements<uint32_t>(targets.display, work.pixels());
     else if (!is_shared)
-        frame.radiance_copy =
-            vulkan::read_elements<glm::vec4>(spp > 1 ? targets.sum : targets.radiance, pixels);
-    add_pass_times(times, {{"read back", read_watch.milliseconds()}});
-    times.insert(times.end(), frame.report.passes.begin(), frame.report.passes.end());
-    frame.report.passes = std::move(times);
-    if (counts_non_finite) add_stopped(frame.report, targets.counters);
+        frame.radiance_copy = vulkan::read_elements<glm::vec4>(
+            work.plan.settings.spp > 1 ? targets.sum : targets.radiance, work.pixels());
+    add_pass_times(work.times, {{pass_name(PassKind::read_back), watch.milliseconds()}});
+    work.times.insert(work.times.end(), frame.report.passes.begin(), frame.report.passes.end());
+    frame.report.passes = std::move(work.times);
+    if (work.counts_non_finite) add_stopped(frame.report, targets.counters);
     if (!is_shared) frame.targets.reset();
-    return frame;
+    return std::move(frame);
 }
 
 } // namespace burnish::render

@@ -13,6 +13,7 @@
 #include "burnish/render/diffuse_light.h"
 #include "burnish/render/environment_maps.h"
 #include "burnish/render/frame.h"
+#include "burnish/render/frame_work.h"
 #include "burnish/render/gpu_scene.h"
 #include "burnish/render/pipelines.h"
 #include "burnish/render/pyramid.h"
@@ -138,6 +139,13 @@ private:
     /// None if something that is not finite was met: then it must be counted.
     std::optional<Frame> draw_once(const Scene& scene, const Camera& camera, const RenderSettings& settings,
                                    bool counts_non_finite);
+    std::unique_ptr<FrameWork> prepare_frame(const Scene& scene, const Camera& camera,
+                                             const RenderSettings& settings, bool counts_non_finite);
+    void make_frame_passes(FrameWork& work, const Scene& scene, GpuScene& gpu_scene);
+    /// Draws one of the pictures that a frame is the mean of, its view moved by an offset in pixels.
+    void draw_picture(FrameWork& work, glm::vec2 offset, uint32_t picture);
+    /// Brings the picture to the host, with the report.
+    static Frame finish_frame(FrameWork& work);
     std::vector<glm::vec3> shade_points(const std::shared_ptr<const Environment>& environment,
                                         const Material& material, const ShadePoints& points,
                                         const PlanSettings& settings, Report* report,

@@ -25,7 +25,8 @@ GroupRows fold_groups(uint64_t groups) {
 ShadePass::ShadePass(Pipelines& pipelines, const Plan& plan, const ShadeTables& tables,
                      const std::vector<std::shared_ptr<EnvironmentMaps>>& maps, const ShadeInputs& inputs,
                      const Placeholders& unused, const ReferenceBuffers* reference)
-    : tables_(tables), inputs_(inputs), unused_(unused), sampler_(pipelines.device(), {}) {
+    : tables_(tables), inputs_(inputs), unused_(unused), sampler_(pipelines.device(), {}),
+      is_reference_(reference != nullptr) {
     const bool is_points = inputs.targets == nullptr;
     for (uint32_t k = 0; k < plan.classes.size(); ++k) {
         const ShadeTarget target{is_points, inputs.display != nullptr, inputs.counts_non_finite};
@@ -33,7 +34,6 @@ ShadePass::ShadePass(Pipelines& pipelines, const Plan& plan, const ShadeTables& 
                                                    : shade_key(plan, tables, k, target);
         const EnvironmentMaps* map_set = maps[plan.classes[k].map_set].get();
         classes_.push_back(make_stage(pipelines, shader, constants, k, map_set, reference));
-        classes_.back().name = message(reference ? "reference " : "shade ", k);
     }
     if (is_points) return;
 
@@ -60,7 +60,6 @@ ShadePass::ShadePass(Pipelines& pipelines, const Plan& plan, const ShadeTables& 
         add_lookup_constants(constants, plan.map_sets[map_set]);
         background_.push_back(make_stage(pipelines, "shade/background.comp", constants, background_class,
                                          maps[map_set].get(), nullptr));
-        background_.back().name = "background";
     }
 }
 
@@ -68,7 +67,7 @@ ShadePass::Stage ShadePass::make_stage(Pipelines& pipelines, const std::string& 
                                        const vulkan::SpecializationConstants& constants, uint32_t shade_class,
                                        const EnvironmentMaps* maps, const ReferenceBuffers* reference) {
     const vulkan::ComputePipeline& pipeline = pipelines.compute(shader, constants);
-    Stage stage{shader, &pipeline, vulkan::DescriptorSet(pipeline), shade_class};
+    Stage stage{&pipeline, vulkan::DescriptorSet(pipeline), shade_class};
     const auto bind = [&](uint32_t binding, const vulkan::Buffer& buffer) {
         if (stage.set.has_binding(binding)) stage.set.bind(binding, buffer);
     };
@@ -126,7 +125,7 @@ void ShadePass::dispatch(vulkan::Commands& commands, const Stage& stage, shared:
 
 void ShadePass::record_tiles(vulkan::Commands& commands) const {
     FrameTargets& targets = *inputs_.targets;
-    commands.begin_pass("tiles");
+    commands.begin_pass(pass_name(PassKind::tiles));
     commands.fill_buffer(targets.tile_counts, 0);
     commands.transition(targets.surface, VK_IMAGE_LAYOUT_GENERAL);
     if (targets.has_varying)
@@ -143,20 +142,23 @@ void ShadePass::record_tiles(vulkan::Commands& commands) const {
     commands.end_pass();
 }
 
+void ShadePass::record_class(vulkan::Commands& commands, uint32_t shade_class,
+                             shared::ShadeRecord push) const {
+    commands.begin_pass(pass_name(is_reference_ ? PassKind::reference : PassKind::shade), shade_class);
+    dispatch(commands, classes_[shade_class], push);
+    commands.end_pass();
+}
+
 void ShadePass::record_shade(vulkan::Commands& commands, shared::ShadeRecord push) const {
-    for (const Stage& stage : classes_) {
-        commands.begin_pass(stage.name);
-        dispatch(commands, stage, push);
-        commands.end_pass();
-    }
+    for (uint32_t k = 0; k < classes_.size(); ++k)
+        record_class(commands, k, push);
 }
 
 void ShadePass::record_background(vulkan::Commands& commands) const {
-    for (const Stage& stage : background_) {
-        commands.begin_pass(stage.name);
+    commands.begin_pass(pass_name(PassKind::background));
+    for (const Stage& stage : background_)
         dispatch(commands, stage, {});
-        commands.end_pass();
-    }
+    commands.end_pass();
 }
 
 void ShadePass::record_start(vulkan::Commands& commands) const {

@@ -51,7 +51,9 @@ public:
 
     /// Lists the tiles of every class; pixels only.
     void record_tiles(vulkan::Commands& commands) const;
-    /// One pass for each class, and one for the background. `push` is completed with what the inputs say.
+    /// One pass. `push` is completed with what the inputs say.
+    void record_class(vulkan::Commands& commands, uint32_t shade_class, shared::ShadeRecord push) const;
+    /// Those of all classes.
     void record_shade(vulkan::Commands& commands, shared::ShadeRecord push) const;
     void record_background(vulkan::Commands& commands) const;
     /// Once, before all others: nothing that is not finite was met or counted.
@@ -63,7 +65,6 @@ public:
 
 private:
     struct Stage {
-        std::string name;
         const vulkan::ComputePipeline* pipeline;
         vulkan::DescriptorSet set;
         uint32_t shade_class;
@@ -82,6 +83,7 @@ private:
     ShadeInputs inputs_;
     const Placeholders& unused_;
     vulkan::Sampler sampler_;
+    bool is_reference_;
     std::vector<Stage> classes_;
     std::vector<Stage> background_;
     std::vector<Stage> tile_stages_;

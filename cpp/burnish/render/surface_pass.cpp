@@ -224,6 +224,7 @@ void SurfacePass::record(vulkan::Commands& commands, FrameTargets& targets) cons
                                      &targets.varying_emissive, &targets.varying_coat})
             rendering.colors.push_back(clear(*image));
     rendering.depth = vulkan::DepthTarget{.image = &targets.depth, .clear = 0.0f};
+    commands.begin_pass(pass_name(PassKind::surface));
     commands.begin_rendering(rendering);
     const vulkan::GraphicsPipeline* bound = nullptr;
     const vulkan::DescriptorSet* bound_set = nullptr;
@@ -240,6 +241,7 @@ void SurfacePass::record(vulkan::Commands& commands, FrameTargets& targets) cons
         commands.draw_indexed(draw.range.index_count, 1, draw.range.first_index, draw.range.vertex_offset);
     }
     commands.end_rendering();
+    commands.end_pass();
 }
 
 } // namespace burnish::render

@@ -132,11 +132,12 @@ void Commands::record_barrier(const VkImageMemoryBarrier2* image) {
     vkCmdPipelineBarrier2(frame_.commands, &info);
 }
 
-void Commands::begin_pass(std::string name) {
+void Commands::begin_pass(std::string kind, std::optional<uint32_t> number) {
     require_outside_rendering("begin_pass"); // drivers defer draws, so a time inside would mean nothing
     require(!is_in_pass_, "passes one after the other, got a nested one");
     is_in_pass_ = true;
-    passes_.push_back({std::move(name), 0});
+    passes_.push_back({std::move(kind), 0});
+    if (number) passes_.back().name += message(" ", *number);
     if (device_->begin_label) {
         VkDebugUtilsLabelEXT label{VK_STRUCTURE_TYPE_DEBUG_UTILS_LABEL_EXT};
         label.pLabelName = passes_.back().name.c_str();

@@ -55,8 +55,9 @@ struct ImageRegion {
 ImageRegion resolve_region(const Image& image, ImageRegion region);
 
 struct PassTime {
-    std::string name;
+    std::string kind;
     double milliseconds = 0; // 0 where the device has no timestamps
+    std::string name = kind; // with its number, where there are several of a kind
 };
 
 /// Everything that the commands use must live until submit() returns. Nothing runs, and tracked image layouts
@@ -117,7 +118,7 @@ public:
 
     /// A span of commands that is timed and labelled; not inside begin_rendering, not nested. Both ends are
     /// barriers.
-    void begin_pass(std::string name);
+    void begin_pass(std::string kind, std::optional<uint32_t> number = {});
     void end_pass();
 
     /// Runs the commands and waits. Throws VulkanError (also for validation errors). Once per scope.

@@ -24,7 +24,7 @@ SIZE = (96, 256)
 """Pixels of the pictures that are timed, all of them covered."""
 
 RUNS = 3
-SHADE_PREFIX = "shade"
+SHADE_KIND = "shade"
 ALPHA_OF_FORM = (0.0, 0.5, 0.3)
 """Grazing exponents that stand for the forms of a pipeline: none, a square root, a power."""
 FIXED = "fixed"
@@ -197,7 +197,7 @@ def measure_fixed_ns(device: _core.Device) -> float:
             size = (scale * SIZE[0], scale * SIZE[1])
             passes = draw(scene, camera, size, _core.Matched(5), device).report.passes
             if run > 0:
-                others = [one["milliseconds"] for one in passes if not one["name"].startswith(SHADE_PREFIX)]
+                others = [one["milliseconds"] for one in passes if one["kind"] != SHADE_KIND]
                 times[scale].append(sum(others))
     small, large = (statistics.median(times[scale]) for scale in scales)
     return max(0.0, 1e6 * (large - small) / (3 * SIZE[0] * SIZE[1]))
@@ -240,8 +240,6 @@ def measure_rates(device: _core.Device, family: str, traits: Traits) -> dict[str
             report = draw(scene, camera, SIZE, sampler, device).report
             if run > 0:  # the first compiles and uploads
                 passes = report.passes
-                times[count].append(
-                    sum(one["milliseconds"] for one in passes if one["name"].startswith(SHADE_PREFIX))
-                )
+                times[count].append(sum(one["milliseconds"] for one in passes if one["kind"] == SHADE_KIND))
     pixels = SIZE[0] * SIZE[1]
     return {str(count): 1e6 * statistics.median(run) / pixels for count, run in times.items()}

@@ -4,11 +4,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from burnish.advice.cost_model import SHADE_PREFIX, CostModel, Traits, traits_of_class
+from burnish.advice.cost_model import SHADE_KIND, CostModel, Traits, traits_of_class
 from burnish.frame import Frame
 
-ONCE = ("pyramid", "prefilter", "irradiance", "capture")
-"""First words of passes that run when something has changed, not in every frame."""
+ONCE = ("upload", "pyramid", "prefilter", "irradiance", "pack")
+"""Kinds of passes that run when something has changed, not in every frame."""
 
 
 @dataclass(frozen=True)
@@ -68,16 +68,14 @@ def learn_frame_cost(
     report = survey.report
     small_pixels, pixels = survey.alpha.size, size[0] * size[1]
     covered = pixels * float(np.mean(survey.alpha > 0))
-    small_fixed = sum(
-        one["milliseconds"] for one in report.passes if not one["name"].startswith((SHADE_PREFIX, *ONCE))
-    )
+    small_fixed = sum(one["milliseconds"] for one in report.passes if one["kind"] not in (SHADE_KIND, *ONCE))
     fixed_ms = small_fixed + 1e-6 * costs.fixed_ns() * max(0, pixels - small_pixels)
     times = {one["name"]: one["milliseconds"] for one in report.passes}
     shares = []
     for k, one in enumerate(report.classes):
         traits = traits_of_class(one["values"])
         rate = costs.shade_ns(family, count, traits)
-        shares.append((traits, times.get(f"{SHADE_PREFIX} {k}", 0.0) / rate if rate > 0 else 0.0))
+        shares.append((traits, times.get(f"{SHADE_KIND} {k}", 0.0) / rate if rate > 0 else 0.0))
     total = sum(share for _, share in shares)
     shaded = tuple((traits, covered * share / total) for traits, share in shares if total > 0)
     return FrameCost(costs, fixed_ms, shaded)

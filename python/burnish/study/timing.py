@@ -15,8 +15,8 @@ Key = TypeVar("Key", bound=Hashable)
 Times = Mapping[str, float]
 Measure = Callable[[], Times]
 
-SHADE_PREFIXES = ("shade", "reference")
-"""First words of the passes that evaluate the samplers; there is one pass for each class of materials."""
+SHADE_KINDS = ("shade", "reference")
+"""Kinds of the passes that evaluate the samplers; there is one pass for each class of materials."""
 
 
 @dataclass(frozen=True)
@@ -67,7 +67,7 @@ def frame_times(report: Report) -> dict[str, float]:
         ``wall_ms``, from the call to the arrays without compilation; ``pass NAME`` for every pass.
     """
     times = {f"pass {entry['name']}": float(entry["milliseconds"]) for entry in report.passes}
-    shade = sum(entry["milliseconds"] for entry in report.passes if entry["name"].startswith(SHADE_PREFIXES))
+    shade = sum(entry["milliseconds"] for entry in report.passes if entry["kind"] in SHADE_KINDS)
     return {
         "frame_ms": report.total_ms,
         "shade_ms": float(shade),
