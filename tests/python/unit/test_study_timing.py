@@ -18,7 +18,9 @@ def test_frame_times_sum_the_shade_passes_and_leave_compilation_out():
     passes = {"surface": 1.0, "shade 0": 2.0, "shade 1": 4.0, "reference 0": 8.0, "read back": 16.0}
     report = Report(
         {
-            "passes": [{"name": name, "kind": name.split()[0], "milliseconds": ms} for name, ms in passes.items()],
+            "passes": [
+                {"name": name, "kind": name.split()[0], "milliseconds": ms} for name, ms in passes.items()
+            ],
             "wall_ms": 150.0,
             "compile_ms": 100.0,
         }
