@@ -12,11 +12,11 @@ SHARED_CONST uint LOBE_ROWS = 5u;
 SHARED_CONST uint MATERIAL_ROWS = 3u;
 SHARED_CONST uint MAP_ROWS = 21u;
 
-// One Kurt lobe of one material.
+// One lobe of one material.
 struct LobeRecord {
-    vec4 specular; // rgb: weight * r0; a: roughness along the tangent (Beckmann slope)
-    vec4 grazing;  // rgb: weight * (1 - r0); a: roughness along the bitangent
-    float alpha;   // grazing exponent, 0..1
+    vec4 specular; // rgb: weight * r0; a: width along the tangent
+    vec4 grazing;  // rgb: weight * (f90 - r0); a: width along the bitangent
+    float alpha;   // grazing exponent, 0..1, of Kurt's
     float rotation_cos;
     float rotation_sin;
     uint table_begin;      // first entry of its sample table
