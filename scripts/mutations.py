@@ -129,7 +129,7 @@ MUTATIONS = (
     Mutation(
         "pairs counted in float32",
         LOOKUP,
-        "aim.at = cube_begin + pairs_before(level, int(s)) + "
+        "aim.at = cube_begin + pairs_before(level, int(s)) +\n             "
         "(int(cube.face) * (aim.pitch + 1) + texel.y) * aim.pitch + texel.x;",
         "aim.at = int(float(cube_begin) + float(pairs_before(level, int(s))) + "
         "(cube.face * float(aim.pitch + 1) + float(texel.y)) * float(aim.pitch) + float(texel.x));",

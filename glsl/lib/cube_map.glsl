@@ -29,8 +29,9 @@ uint cube_face_uv(vec3 direction, out vec2 uv) {
     return direction.x > 0.0 ? 0u : 1u;
 }
 
-// r = |w| / |w|_inf: how far the cube lies out of the unit sphere in direction w. A texel of a face of `face_texels` covers
-// 4 / (face_texels r^3): the face's area of 4, shrunk by the squared distance and by the slant.
+// r = |w| / |w|_inf: how far the cube lies out of the unit sphere in direction w. A texel of a face of
+// `face_texels` covers 4 / (face_texels r^3): the face's area of 4, shrunk by the squared distance and by the
+// slant.
 float cube_stretch(vec3 w) {
     vec3 a = abs(w);
     return length(w) / max(max(a.x, a.y), a.z);

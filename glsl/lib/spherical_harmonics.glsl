@@ -20,7 +20,8 @@ vec3 irradiance_over_pi(vec4 coefficients[9], vec3 n) {
     float y[9];
     harmonics(n, y);
     vec3 sum = vec3(0.0);
-    for (int k = 0; k < 9; ++k) sum += coefficients[k].rgb * y[k];
+    for (int k = 0; k < 9; ++k)
+        sum += coefficients[k].rgb * y[k];
     return max(sum, vec3(0.0));
 }
 

@@ -1,5 +1,5 @@
-// Trowbridge and Reitz' lobe (GGX) with height-correlated shadowing of Smith, in forms that stay exact in float32.
-// Half-vectors and directions are in the local frame, z = normal. a = alpha along x and y.
+// Trowbridge and Reitz' lobe (GGX) with height-correlated shadowing of Smith, in forms that stay exact in
+// float32. Half-vectors and directions are in the local frame, z = normal. a = alpha along x and y.
 #ifndef BURNISH_LOBE_GGX
 #define BURNISH_LOBE_GGX
 
@@ -28,8 +28,9 @@ float ggx_rest(vec3 omega_i, vec3 omega_o, vec2 a) {
     return 0.5 * omega_i.z / (co * projected_width(omega_i, a) + omega_i.z * projected_width(omega_o, a));
 }
 
-// The half-vector of a place of the lobe's plane, of density (1 + |p|^2)^-2/pi: the point p/(1 + |p|^2)^1/2 of the unit disc of
-// normals, squeezed to what the view sees of a hemisphere that is stretched by alpha (Heitz 2018).
+// The half-vector of a place of the lobe's plane, of density (1 + |p|^2)^-2/pi: the point p/(1 + |p|^2)^1/2
+// of the unit disc of normals, squeezed to what the view sees of a hemisphere that is stretched by alpha
+// (Heitz 2018).
 struct GgxNormal {
     vec3 h;
     float q; // as in ggx_d
@@ -84,8 +85,8 @@ LobePoint ggx_at(vec3 omega_o, vec2 p, vec2 a) {
     return point;
 }
 
-// D cos_h^4 of a lobe that is wider by a light: such a C has about the peak of a lobe that is smoothed by as much. In the tail,
-// where the first form is large, nothing changes.
+// D cos_h^4 of a lobe that is wider by a light: such a C has about the peak of a lobe that is smoothed by as
+// much. In the tail, where the first form is large, nothing changes.
 float ggx_widened_d(Widened w, vec2 a) {
     vec2 a2 = a * a;
     float x = widened_form(w, a2, 1.5).x;

@@ -18,12 +18,14 @@ struct Widened {
     float turn; // its determinant is the square of this
 };
 
-// s^T C^-1 s and the determinant of C = diag(m2) + k times the light's part: every term of that is positive, nothing cancels.
+// s^T C^-1 s and the determinant of C = diag(m2) + k times the light's part: every term of that is positive,
+// nothing cancels.
 vec2 widened_form(Widened w, vec2 m2, float k) {
     vec2 wider = k * w.wider, c = m2 + wider;
     float off = k * w.off, turn = k * w.turn;
     float determinant = m2.x * m2.y + m2.x * wider.y + m2.y * wider.x + turn * turn;
-    float square = c.y * w.slope.x * w.slope.x - 2.0 * off * w.slope.x * w.slope.y + c.x * w.slope.y * w.slope.y;
+    float square =
+        c.y * w.slope.x * w.slope.x - 2.0 * off * w.slope.x * w.slope.y + c.x * w.slope.y * w.slope.y;
     return vec2(square / determinant, determinant);
 }
 

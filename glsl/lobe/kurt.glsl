@@ -26,22 +26,24 @@ float kurt_q(vec3 h, vec2 m) {
     return h.z > 0.0 ? exp(-exponent) : 0.0;
 }
 
-// D(h) = q / (pi mx my cos_h^4). The exponent comes first: where it flushes q to zero, D is zero whatever cos_h.
+// D(h) = q / (pi mx my cos_h^4). The exponent comes first: where it flushes q to zero, D is zero whatever
+// cos_h.
 float kurt_d(vec3 h, vec2 m) {
     float q = kurt_q(h, m);
     float z2 = max(h.z * h.z, 1e-16);
     return q > 0.0 ? q / (PI * m.x * m.y * z2 * z2) : 0.0;
 }
 
-// cos_i^(1-alpha) cos_o^-alpha, 0 at and below the horizon; alpha 1 has no cos_i left, so pow(0, 0) never arises.
+// cos_i^(1-alpha) cos_o^-alpha, 0 at and below the horizon; alpha 1 has no cos_i left, so pow(0, 0) never
+// arises.
 float grazing_term(float cos_i, float cos_o, float alpha) {
     float i = max(cos_i, 1e-30);
     float value = pow(i, 1.0 - alpha) * pow(max(cos_o, MIN_COS), -alpha);
     return cos_i > 0.0 ? value : 0.0;
 }
 
-// Half-vector with density D cos_h, from x in the unit square. x.x >= 2^-24 keeps it above the horizon; log, good to 2^-21
-// only beside 1, may come out positive there.
+// Half-vector with density D cos_h, from x in the unit square. x.x >= 2^-24 keeps it above the horizon; log,
+// good to 2^-21 only beside 1, may come out positive there.
 vec3 sample_kurt(vec2 x, vec2 m) {
     float radius = sqrt(max(-log(clamp(x.x, 5.9604645e-8, 1.0)), 0.0));
     float azimuth = 2.0 * PI * (x.y - 0.5); // half a turn back: sin and cos are accurate in [-pi, pi]

@@ -1,5 +1,5 @@
-// Kernels ask this of a lobe, whichever model it is of: each is one file, and a line in every function. `model` is a constant
-// of the pipeline, so that others cost nothing.
+// Kernels ask this of a lobe, whichever model it is of: each is one file, and a line in every function.
+// `model` is a constant of the pipeline, so that others cost nothing.
 #ifndef BURNISH_LOBE_LOBE
 #define BURNISH_LOBE_LOBE
 
@@ -10,8 +10,8 @@
 
 // All of a lobe that decides where it reflects light to.
 struct LobeShape {
-    uint model; // MODEL_...
-    vec2 width; // along x and y
+    uint model;  // MODEL_...
+    vec2 width;  // along x and y
     float alpha; // of Kurt's
 };
 
@@ -20,13 +20,15 @@ float lobe_d(LobeShape l, vec3 h) {
     return kurt_d(h, l.width);
 }
 
-// f cos_i/D without weight and Fresnel, for directions above the horizon. `grazing`: Kurt's powers of cosines.
+// f cos_i/D without weight and Fresnel, for directions above the horizon. `grazing`: Kurt's powers of
+// cosines.
 float lobe_rest(LobeShape l, vec3 omega_i, vec3 omega_o, float cos_d, float grazing) {
     if (l.model == MODEL_GGX) return ggx_rest(omega_i, omega_o, l.width);
     return grazing / (4.0 * cos_d);
 }
 
-// A half-vector in proportion to the lobe, from x in the unit square; the mirrored direction has the density below.
+// A half-vector in proportion to the lobe, from x in the unit square; the mirrored direction has the density
+// below.
 vec3 lobe_sample(LobeShape l, vec3 omega_o, vec2 x) {
     if (l.model == MODEL_GGX) return sample_ggx(omega_o, x, l.width);
     return sample_kurt(x, l.width);

@@ -1,13 +1,15 @@
-// How kernels read maps. One function, two implementations: the device's sampler, and our own lookup for CPU devices, whose
-// sampler takes most of a frame (cpp/burnish/render/texel_pairs.h). Both are seamless and trilinear. A lookup has two halves, aim
-// and load, so that a kernel can aim several before it loads: a CPU then overlaps their loads.
+// How kernels read maps. One function, two implementations: the device's sampler, and our own lookup for CPU
+// devices, whose sampler takes most of a frame (cpp/burnish/render/texel_pairs.h). Both are seamless and
+// trilinear. A lookup has two halves, aim and load, so that a kernel can aim several before it loads: a CPU
+// then overlaps their loads.
 #ifndef BURNISH_LOOKUP_MAP_LOOKUP
 #define BURNISH_LOOKUP_MAP_LOOKUP
 
 #include "shared/constants.h"
 
 layout(constant_id = SPEC_LOOKUP) const uint LOOKUP = LOOKUP_SAMPLER;
-layout(constant_id = SPEC_LAST_LEVEL) const int LAST_LEVEL = 0; // of the faces: log2 of their size; pairs only
+layout(constant_id = SPEC_LAST_LEVEL) const
+    int LAST_LEVEL = 0; // of the faces: log2 of their size; pairs only
 
 layout(binding = BINDING_MAPS) uniform samplerCubeArray maps;
 layout(binding = BINDING_MAP_PAIRS, rgba32ui) uniform readonly uimageBuffer map_pairs;
@@ -15,7 +17,7 @@ layout(std430, binding = BINDING_STORED_PAIRS) readonly buffer StoredPairs { uve
 
 // Where one bilinear lookup lands.
 struct PairAim {
-    int at;        // pair above; the one below lies a pitch further
+    int at; // pair above; the one below lies a pitch further
     int pitch;
     vec2 fraction; // toward the right texel, toward the row below
 };
@@ -28,7 +30,8 @@ struct MapAim {
     float coarse_share;
 };
 
-// Pairs of all levels before this one, of size s: 6 (n + 1)(n + 2) each add up to this, since every level is half as large.
+// Pairs of all levels before this one, of size s: 6 (n + 1)(n + 2) each add up to this, since every level is
+// half as large.
 int pairs_before(int level, int s) {
     const int n = 1 << LAST_LEVEL;
     return n * (8 * n + 36) - s * (8 * s + 36) + 12 * level;
@@ -72,7 +75,8 @@ PairAim aim_pairs(CubePlace cube, int cube_begin, int level) {
     PairAim aim;
     aim.pitch = int(s) + 1;
     // In integers: a cube of faces of 2048 has more pairs than a float32 can count.
-    aim.at = cube_begin + pairs_before(level, int(s)) + (int(cube.face) * (aim.pitch + 1) + texel.y) * aim.pitch + texel.x;
+    aim.at = cube_begin + pairs_before(level, int(s)) +
+             (int(cube.face) * (aim.pitch + 1) + texel.y) * aim.pitch + texel.x;
     aim.fraction = place - vec2(texel);
     return aim;
 }
@@ -95,7 +99,9 @@ MapAim aim_at_map(CubePlace place, float layer, float level) {
     return aim;
 }
 
-MapAim aim_at_map(vec3 direction, float layer, float level) { return aim_at_map(place_on_cube(direction), layer, level); }
+MapAim aim_at_map(vec3 direction, float layer, float level) {
+    return aim_at_map(place_on_cube(direction), layer, level);
+}
 
 uvec4 load_pair(int k) {
     if (LOOKUP == LOOKUP_STORAGE) return stored_pairs[k];

@@ -1,4 +1,5 @@
-// Copies words, changed by every kind of specialization constant and by a push constant. Tests the Vulkan layer itself.
+// Copies words, changed by every kind of specialization constant and by a push constant. Tests the Vulkan
+// layer itself.
 #version 460
 
 layout(local_size_x_id = 0) in;

@@ -5,7 +5,9 @@
 #include "lib/frame.glsl"
 #include "probe/items.glsl"
 
-void put(PackedFrame frame) { put(mat3(frame.tangent, frame.handedness * cross(frame.normal, frame.tangent), frame.normal)); }
+void put(PackedFrame frame) {
+    put(mat3(frame.tangent, frame.handedness * cross(frame.normal, frame.tangent), frame.normal));
+}
 
 void run() {
     vec4 a = argument(0u);

@@ -17,6 +17,8 @@ void run() {
     vec4 c = argument(2u);
     switch (FUNCTION) {
     case PROBE_SLOPE_FROM_PERCEPTUAL: put(slope_from_perceptual(a.x)); break;
-    case PROBE_MAP_METALLIC_ROUGHNESS: put_mapped(map_metallic_roughness(a.rgb, c.x, c.y, b.rgb, c.z, c.w)); break;
+    case PROBE_MAP_METALLIC_ROUGHNESS:
+        put_mapped(map_metallic_roughness(a.rgb, c.x, c.y, b.rgb, c.z, c.w));
+        break;
     }
 }

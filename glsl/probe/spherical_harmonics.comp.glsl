@@ -16,7 +16,8 @@ void put_harmonics(vec3 n) {
 // The normal, then the nine coefficients.
 void put_irradiance(vec3 n) {
     vec4 coefficients[9];
-    for (uint k = 0u; k < 9u; ++k) coefficients[k] = argument(k + 1u);
+    for (uint k = 0u; k < 9u; ++k)
+        coefficients[k] = argument(k + 1u);
     put(irradiance_over_pi(coefficients, n));
 }
 

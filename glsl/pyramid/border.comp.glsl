@@ -1,6 +1,7 @@
-// Fills the border of one level: what lies beyond an edge is folded over it, as deep inside the neighbouring face as it is
-// outside of its own, at the same place along the edge. The corner blocks, beyond two edges, are set to zero: the
-// reduction adds them by itself, in full precision. One invocation writes one pair of texels; z counts layers.
+// Fills the border of one level: what lies beyond an edge is folded over it, as deep inside the neighbouring
+// face as it is outside of its own, at the same place along the edge. The corner blocks, beyond two edges,
+// are set to zero: the reduction adds them by itself, in full precision. One invocation writes one pair of
+// texels; z counts layers.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 

@@ -1,7 +1,7 @@
-// One level of a prefiltered map (shared/prefilter.h) by lookups of the map's pyramid, L(n) = sum w_k L(i_k) / sum w_k:
-// a lobe's by filtered importance sampling, w = cos_i / cos_h, half-vectors of density D cos_h, seen along the normal, o = n;
-// a Gaussian's by a mixture of the matched sampler.
-// One invocation makes one texel; z counts faces.
+// One level of a prefiltered map (shared/prefilter.h) by lookups of the map's pyramid, L(n) = sum w_k L(i_k)
+// / sum w_k: a lobe's by filtered importance sampling, w = cos_i / cos_h, half-vectors of density D cos_h,
+// seen along the normal, o = n; a Gaussian's by a mixture of the matched sampler. One invocation makes one
+// texel; z counts faces.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
@@ -32,8 +32,8 @@ Lookup place_lookup(vec3 direction, float cos_i, vec4 entry) {
     float level;
     Lookup lookup;
     if (IS_SPHERICAL) {
-        // A lookup of width sigma in (u, v) is r^-2 sigma by r^-1 sigma wide on the sphere: 2/(r^-4 + r^-2), r the inverse of
-        // the direction's largest component.
+        // A lookup of width sigma in (u, v) is r^-2 sigma by r^-1 sigma wide on the sphere: 2/(r^-4 + r^-2),
+        // r the inverse of the direction's largest component.
         float x = 1.0 / (place.inverse_largest * place.inverse_largest);
         level = mip_level(2.0 * entry.w / (x * (x + 1.0)));
         lookup.weight = entry.z;
@@ -61,7 +61,8 @@ void main() {
     for (uint k = record.sample_begin; k < end; k += PREFILTER_PHASE / lookups_of_entry) {
         Lookup lookups[PREFILTER_PHASE];
         [[unroll]] for (uint j = 0u; j < PREFILTER_PHASE; j += lookups_of_entry) {
-            // In slope form, as in shade/lobe.glsl: with g = n + sx t + sy b and c = 1/|g|^2, i = 2 c g - n and cos_i = 2 c - 1.
+            // In slope form, as in shade/lobe.glsl: with g = n + sx t + sy b and c = 1/|g|^2, i = 2 c g - n
+            // and cos_i = 2 c - 1.
             vec4 entry = imageLoad(samples, int(k + j / lookups_of_entry));
             float c = 1.0 / (1.0 + dot(entry.xy, entry.xy));
             float cos_i = 2.0 * c - 1.0;
@@ -75,5 +76,6 @@ void main() {
         }
     }
     sum /= weight;
-    texels[record.texel_begin + face * size * size + index] = uvec2(packHalf2x16(sum.rg), packHalf2x16(vec2(sum.b, 1.0)));
+    texels[record.texel_begin + face * size * size + index] =
+        uvec2(packHalf2x16(sum.rg), packHalf2x16(vec2(sum.b, 1.0)));
 }

@@ -1,6 +1,7 @@
-// One level of a pyramid from the level above it, by a separable filter of 2, 4 or 6 taps. An invocation makes a block of
-// texels: a row of the source is loaded and filtered along x once, then added, with the right weight, to every texel of
-// the block that it touches. Six loads a texel serve 36 taps, without a second pass. z counts layers.
+// One level of a pyramid from the level above it, by a separable filter of 2, 4 or 6 taps. An invocation
+// makes a block of texels: a row of the source is loaded and filtered along x once, then added, with the
+// right weight, to every texel of the block that it touches. Six loads a texel serve 36 taps, without a
+// second pass. z counts layers.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
@@ -60,8 +61,9 @@ void main() {
         }
     }
 
-    // Corner blocks of the border: the mean of the two folds, over the one edge or the other first. Both lie in the face's
-    // own border. A loop that most invocations leave at once, which a CPU device skips where it would not skip an `if`.
+    // Corner blocks of the border: the mean of the two folds, over the one edge or the other first. Both lie
+    // in the face's own border. A loop that most invocations leave at once, which a CPU device skips where it
+    // would not skip an `if`.
     bool touches_corner = REACH > 0 && (first.x == 0 || first.x + BLOCK_X >= size) &&
                           (first.y == 0 || first.y + BLOCK_Y >= size);
     int corner_texels = touches_corner ? 4 * REACH * REACH : 0;
@@ -70,9 +72,12 @@ void main() {
         int j = k / 4 / max(REACH, 1);
         bool is_right = (k & 1) != 0;
         bool is_below = (k & 2) != 0;
-        uvec2 beside = load_texel(source, layer, is_right ? source.size + j : -1 - j, is_below ? source.size - 1 - i : i);
-        uvec2 above = load_texel(source, layer, is_right ? source.size - 1 - j : j, is_below ? source.size + i : -1 - i);
-        vec4 term = 0.5 * weight(REACH - 1 - i) * weight(REACH - 1 - j) * (unpack_texel(beside) + unpack_texel(above));
+        uvec2 beside = load_texel(source, layer, is_right ? source.size + j : -1 - j,
+                                  is_below ? source.size - 1 - i : i);
+        uvec2 above = load_texel(source, layer, is_right ? source.size - 1 - j : j,
+                                 is_below ? source.size + i : -1 - i);
+        vec4 term = 0.5 * weight(REACH - 1 - i) * weight(REACH - 1 - j) *
+                    (unpack_texel(beside) + unpack_texel(above));
         ivec2 place = ivec2(is_right ? size - 1 : 0, is_below ? size - 1 : 0) - first;
         [[unroll]] for (int y = 0; y < BLOCK_Y; ++y) {
             [[unroll]] for (int x = 0; x < BLOCK_X; ++x) {

@@ -16,8 +16,12 @@ struct Level {
     int size; // texels along an edge
 };
 
-Level source_level() { return Level(int(record.source_begin), int(record.source_pitch), int(record.source_size)); }
-Level target_level() { return Level(int(record.target_begin), int(record.target_pitch), int(record.source_size) / 2); }
+Level source_level() {
+    return Level(int(record.source_begin), int(record.source_pitch), int(record.source_size));
+}
+Level target_level() {
+    return Level(int(record.target_begin), int(record.target_pitch), int(record.source_size) / 2);
+}
 
 // The pair that holds texel (x, y) of a layer; x and y may lie in the border.
 int pair_index(Level level, int layer, int x, int y) {

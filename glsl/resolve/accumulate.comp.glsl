@@ -1,5 +1,5 @@
-// Adds one jittered picture to the mean: sum += weight * radiance, weight = 1 / spp. Of display output the last one leaves the mean
-// in eight bits and not in the sum.
+// Adds one jittered picture to the mean: sum += weight * radiance, weight = 1 / spp. Of display output the
+// last one leaves the mean in eight bits and not in the sum.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
@@ -18,6 +18,8 @@ void main() {
     uint index = (gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x) * 64u + gl_LocalInvocationIndex;
     if (index >= push.count) return;
     vec4 mean = (push.is_first != 0u ? vec4(0.0) : sum[index]) + push.weight * radiance[index];
-    if (IS_DISPLAY) display_out[index] = display_pixel(mean, push.display_scale);
-    else sum[index] = mean;
+    if (IS_DISPLAY)
+        display_out[index] = display_pixel(mean, push.display_scale);
+    else
+        sum[index] = mean;
 }

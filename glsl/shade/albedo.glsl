@@ -45,7 +45,8 @@ vec2 varying_albedo(uint begin, float roughness, float cos_o) {
     return mix(albedo_row(row, cos_o), albedo_row(row + ALBEDO_COS_NODES, cos_o), m.z);
 }
 
-// Of a brushed one: with slopes of covariance C/2 in the plane of view and across it, by sqrt(C_xx), sqrt(C_yy) and C_xy^2/(C_xx C_yy).
+// Of a brushed one: with slopes of covariance C/2 in the plane of view and across it, by sqrt(C_xx),
+// sqrt(C_yy) and C_xy^2/(C_xx C_yy).
 vec2 brushed_albedo(uint begin, vec2 roughness, vec3 local_o) {
     float sine2 = dot(local_o.xy, local_o.xy);
     vec2 e = sine2 > 1e-12 ? local_o.xy * inversesqrt(sine2) : vec2(1.0, 0.0);

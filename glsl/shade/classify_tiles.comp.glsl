@@ -1,5 +1,5 @@
-// Lists, for every shade class, the 8x8 tiles that hold one of its pixels. One invocation is one tile: barriers and shared
-// memory would cost a CPU device more than the loads.
+// Lists, for every shade class, the 8x8 tiles that hold one of its pixels. One invocation is one tile:
+// barriers and shared memory would cost a CPU device more than the loads.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
@@ -9,7 +9,8 @@
 
 layout(local_size_x = 64) in;
 layout(constant_id = SPEC_CLASS_COUNT) const uint CLASS_COUNT = 1u;
-layout(constant_id = SPEC_SHADE_CLASS) const uint BACKGROUND_CLASS = MAX_SHADE_CLASSES; // not below CLASS_COUNT: no background
+layout(constant_id = SPEC_SHADE_CLASS) const uint BACKGROUND_CLASS =
+    MAX_SHADE_CLASSES; // not below CLASS_COUNT: no background
 
 layout(push_constant) uniform Push { ShadeRecord push; };
 layout(binding = BINDING_SURFACE, rg32ui) uniform readonly uimage2D surface_image;
@@ -18,7 +19,9 @@ layout(std430, binding = BINDING_TILE_COUNTS) buffer TileCounts { uvec4 tile_cou
 
 uint class_of(uvec2 surface) {
     if (!has_surface(surface)) return BACKGROUND_CLASS;
-    return BACKGROUND_CLASS == 1u ? 0u : load_material(unpack_material(surface)).shade_class; // one class needs no look-up
+    return BACKGROUND_CLASS == 1u
+               ? 0u
+               : load_material(unpack_material(surface)).shade_class; // one class needs no look-up
 }
 
 void main() {

@@ -1,4 +1,5 @@
-// Light on a diffuse surface: irradiance / pi at its normal, in environment space, without the map's exposure.
+// Light on a diffuse surface: irradiance / pi at its normal, in environment space, without the map's
+// exposure.
 #ifndef BURNISH_SHADE_DIFFUSE
 #define BURNISH_SHADE_DIFFUSE
 
@@ -9,15 +10,18 @@
 layout(constant_id = SPEC_HAS_HARMONICS) const bool HAS_HARMONICS = false;
 layout(constant_id = SPEC_IRRADIANCE_IS_STORED) const bool IRRADIANCE_IS_STORED = false;
 layout(binding = BINDING_IRRADIANCE, rgba32f) uniform readonly imageBuffer irradiance_cubes;
-layout(std430, binding = BINDING_STORED_IRRADIANCE) readonly buffer StoredIrradiance { vec4 stored_irradiance[]; };
+layout(std430, binding = BINDING_STORED_IRRADIANCE) readonly buffer StoredIrradiance {
+    vec4 stored_irradiance[];
+};
 
 vec3 irradiance_texel(int index) {
     if (IRRADIANCE_IS_STORED) return stored_irradiance[index].rgb;
     return imageLoad(irradiance_cubes, index).rgb;
 }
 
-// One seamless bilinear lookup in the cube of a map, whose faces have a border (cpp/burnish/light/irradiance_cube.h).
-// It is in float32 on every device, so no light is too dim or too bright for it, and takes fewer rows than nine harmonics.
+// One seamless bilinear lookup in the cube of a map, whose faces have a border
+// (cpp/burnish/light/irradiance_cube.h). It is in float32 on every device, so no light is too dim or too
+// bright for it, and takes fewer rows than nine harmonics.
 vec3 look_up_irradiance(vec3 n, uint map_index) {
     const int pitch = int(IRRADIANCE_PITCH);
     const float half_size = 0.5 * float(IRRADIANCE_FACE);

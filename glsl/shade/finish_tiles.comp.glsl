@@ -1,5 +1,5 @@
-// Turns the tile counts of all classes into indirect dispatches: rows as few as they can be, of equal length, so that next to no group
-// lies past the end of its list.
+// Turns the tile counts of all classes into indirect dispatches: rows as few as they can be, of equal length,
+// so that next to no group lies past the end of its list.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 

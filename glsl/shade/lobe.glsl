@@ -19,7 +19,9 @@ layout(constant_id = SPEC_WITHOUT_LOOKUPS) const bool IS_WITHOUT_LOOKUPS = false
 
 layout(constant_id = SPEC_SAMPLE_TABLE_IS_STORED) const bool SAMPLE_TABLE_IS_STORED = false;
 layout(binding = BINDING_SAMPLE_TABLE, rgba32f) uniform readonly imageBuffer sample_table;
-layout(std430, binding = BINDING_STORED_SAMPLE_TABLE) readonly buffer StoredSampleTable { vec4 stored_sample_table[]; };
+layout(std430, binding = BINDING_STORED_SAMPLE_TABLE) readonly buffer StoredSampleTable {
+    vec4 stored_sample_table[];
+};
 
 vec4 sample_entry(int index) {
     if (SAMPLE_TABLE_IS_STORED) return stored_sample_table[index];
@@ -28,11 +30,11 @@ vec4 sample_entry(int index) {
 
 // What all samples of one lobe at one point share.
 struct LobeView {
-    mat3 frame;        // environment space
-    vec3 omega_o;      // environment space
-    vec3 local_o;      // omega_o in the frame
-    float area_term;   // of the published footprint
-    uint model;        // MODEL_...
+    mat3 frame;      // environment space
+    vec3 omega_o;    // environment space
+    vec3 local_o;    // omega_o in the frame
+    float area_term; // of the published footprint
+    uint model;      // MODEL_...
     vec2 roughness;
     float alpha;
     float cos_o_power; // max(cos_o, MIN_COS)^-alpha
@@ -43,11 +45,11 @@ struct LobeView {
 LobeShape shape_of(LobeView v) { return LobeShape(v.model, v.roughness, v.alpha); }
 
 struct LobeSums {
-    vec3 base;          // sum of w L
-    vec3 schlick;       // sum of w (1 - o.h)^5 L
-    float base_weight;  // sum of w
+    vec3 base;         // sum of w L
+    vec3 schlick;      // sum of w (1 - o.h)^5 L
+    float base_weight; // sum of w
     float schlick_weight;
-    float density;      // scaled tables: what the weights must be divided by
+    float density; // scaled tables: what the weights must be divided by
 };
 
 struct Lookup {
@@ -79,7 +81,8 @@ Lookup place_in_plane(LobeView v, vec4 entry) {
     lookup.schlick = HAS_FRESNEL ? schlick_weight(point.cos_d) : 0.0;
     lookup.density = 0.0;
     CubePlace place = place_on_cube(v.frame * point.omega_i);
-    lookup.aim = aim_at_map(place, v.layer, mip_level(texels_exact(entry.w, point.stretch, place.inverse_largest)));
+    lookup.aim =
+        aim_at_map(place, v.layer, mip_level(texels_exact(entry.w, point.stretch, place.inverse_largest)));
     return lookup;
 }
 
@@ -102,8 +105,10 @@ Lookup place_lookup(LobeView v, vec4 entry) {
         weight *= inverse_c * inverse_c; // D = q / cos_h^4
         lookup.density = NORMALIZATION == NORMALIZATION_PUBLISHED ? weight : weight * sqrt(c);
         float reach = v.threshold_log * v.roughness.x * v.roughness.y; // tan^2 of the lobe's edge
-        float narrowing = FOOTPRINT == FOOTPRINT_EXACT ? 2.0 / (1.0 + reach + sqrt(1.0 + reach)) : 1.0 / (1.0 + reach);
-        texel_factor *= v.roughness.x * v.roughness.y * narrowing * (FOOTPRINT == FOOTPRINT_EXACT ? sqrt(c) : sqrt(inverse_c));
+        float narrowing =
+            FOOTPRINT == FOOTPRINT_EXACT ? 2.0 / (1.0 + reach + sqrt(1.0 + reach)) : 1.0 / (1.0 + reach);
+        texel_factor *= v.roughness.x * v.roughness.y * narrowing *
+                        (FOOTPRINT == FOOTPRINT_EXACT ? sqrt(c) : sqrt(inverse_c));
     }
     if (TABLE == TABLE_SCALED_IMPORTANCE) {
         weight *= sqrt(inverse_c); // 1 / cos_h
@@ -132,20 +137,20 @@ void add_lookup(inout LobeSums sums, Lookup lookup) {
     sums.density += lookup.density;
 }
 
-// Lookups go in phases of four: first all are aimed, then all are loaded, so that a CPU can overlap the loads. (In phases of one
-// for drivers that compile slowly.)
+// Lookups go in phases of four: first all are aimed, then all are loaded, so that a CPU can overlap the
+// loads. (In phases of one for drivers that compile slowly.)
 layout(constant_id = SPEC_PHASE) const uint PHASE = 4u;
 
 void gather_phase(LobeView v, uint first, uint count, inout LobeSums sums) {
     Lookup lookups[PHASE];
-    [[unroll]] for (uint j = 0u; j < PHASE; ++j)
+    [[unroll]] for (uint j = 0u; j < PHASE; ++j) {
         if (j < count) lookups[j] = place_lookup(v, sample_entry(int(first + j)));
-    [[unroll]] for (uint j = 0u; j < PHASE; ++j)
-        if (j < count) add_lookup(sums, lookups[j]);
+    }
+    [[unroll]] for (uint j = 0u; j < PHASE; ++j) if (j < count) add_lookup(sums, lookups[j]);
 }
 
-// Tables are padded with entries of weight zero: to SAMPLE_COUNT, or to whole phases. A loop that a CPU driver keeps
-// stores all it carries in memory at every turn (measured: 1.5 times the cost of a lobe).
+// Tables are padded with entries of weight zero: to SAMPLE_COUNT, or to whole phases. A loop that a CPU
+// driver keeps stores all it carries in memory at every turn (measured: 1.5 times the cost of a lobe).
 LobeSums gather_pattern(LobeView v, uint table_begin, uint table_count) {
     LobeSums sums = LobeSums(vec3(0.0), vec3(0.0), 0.0, 0.0, 0.0);
     if (SAMPLE_COUNT > 0u) {
@@ -153,7 +158,8 @@ LobeSums gather_pattern(LobeView v, uint table_begin, uint table_count) {
             gather_phase(v, table_begin + k, SAMPLE_COUNT - k, sums);
         return sums;
     }
-    [[dont_unroll]] for (uint k = 0u; k < table_count; k += PHASE) gather_phase(v, table_begin + k, PHASE, sums);
+    [[dont_unroll]] for (uint k = 0u; k < table_count; k += PHASE)
+        gather_phase(v, table_begin + k, PHASE, sums);
     return sums;
 }
 

@@ -1,5 +1,6 @@
-// Tells a CPU device which of the two lookups its driver does faster (cpp/burnish/render/lookup_probe.h). Four lookups about the mirror
-// direction of a sphere's normal, at levels as the shade kernels have them: few, for what is written out takes long to compile.
+// Tells a CPU device which of the two lookups its driver does faster (cpp/burnish/render/lookup_probe.h).
+// Four lookups about the mirror direction of a sphere's normal, at levels as the shade kernels have them:
+// few, for what is written out takes long to compile.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 

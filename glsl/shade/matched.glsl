@@ -1,6 +1,7 @@
-// Radiance of one lobe by the variance-matched sampler (maths: section 6): the lobe as a mixture of Gaussians whose widths are
-// those of the lookups, so that centres and lookups together have the lobe's covariance. The map's levels are round on the sphere
-// (shared/prefilter.h): where lookups go and how wide they are depends on the lobe and the view in its frame alone.
+// Radiance of one lobe by the variance-matched sampler (maths: section 6): the lobe as a mixture of Gaussians
+// whose widths are those of the lookups, so that centres and lookups together have the lobe's covariance. The
+// map's levels are round on the sphere (shared/prefilter.h): where lookups go and how wide they are depends
+// on the lobe and the view in its frame alone.
 #ifndef BURNISH_SHADE_MATCHED
 #define BURNISH_SHADE_MATCHED
 
@@ -8,19 +9,21 @@
 
 layout(constant_id = SPEC_WIDE_COMPONENTS) const bool HAS_WIDE_COMPONENTS = false;
 
-// A mixture's place at one point. A slope y1 axis1 + y2 axis2 (y in units of the lobe's principal axes on the map) is
+// A mixture's place at one point. A slope y1 axis1 + y2 axis2 (y in units of the lobe's principal axes on the
+// map) is
 //   g = n + y1 g1 + y2 g2,  og = o.g = o.n + y1 o1 + y2 o2.
 struct MixtureView {
-    vec3 g1, g2;         // environment space
-    float inverse_rho;   // a component of width s has a deviation of s/rho in y1, of s in y2
+    vec3 g1, g2;       // environment space
+    float inverse_rho; // a component of width s has a deviation of s/rho in y1, of s in y2
     float o1, o2;
-    // One deviation of a component of s = 1: h along the direction in which cos_i changes most, p across it (o.p = 0).
+    // One deviation of a component of s = 1: h along the direction in which cos_i changes most, p across it
+    // (o.p = 0).
     vec3 h, p;
-    float oh, h2, p2;    // o.h, |h|^2, |p|^2
-    float linear;        // variance_share b^2/c: a component's variance over s^2 (o.h) cos_h^3
-    float share;         // of level 1's variance, for a variance of 1: see spherical_level
-    int row;             // its first entry in the table
-    vec2 fresnel;        // F = x + y (1 - o.h)^5 over all channels: weighs directions within a component
+    float oh, h2, p2; // o.h, |h|^2, |p|^2
+    float linear;     // variance_share b^2/c: a component's variance over s^2 (o.h) cos_h^3
+    float share;      // of level 1's variance, for a variance of 1: see spherical_level
+    int row;          // its first entry in the table
+    vec2 fresnel;     // F = x + y (1 - o.h)^5 over all channels: weighs directions within a component
 };
 
 struct LobeAxes {
@@ -28,15 +31,17 @@ struct LobeAxes {
     float rho, minor, foreshortening;
 };
 
-// The plane of view in the frame of the lobe: o_xy/|o_xy|, and |o_xy| as z. Along the normal any plane will do.
+// The plane of view in the frame of the lobe: o_xy/|o_xy|, and |o_xy| as z. Along the normal any plane will
+// do.
 vec3 view_plane(vec3 local_o) {
     float sine = length(local_o.xy);
     return vec3(sine > 1e-6 ? local_o.xy / sine : vec2(1.0, 0.0), sine);
 }
 
-// Widths of the mirrored lobe on the sphere: L maps slopes in units of roughness to offsets from the mirror direction, along T1 in
-// the plane of view and T2 across it,
-//   L = 2 [ex mx, ey my; -ey mx c, ex my c],  e = o_xy/|o_xy|,  c^2 = max(o_z, .03)^2 + (ox mx)^2 + (oy my)^2.
+// Widths of the mirrored lobe on the sphere: L maps slopes in units of roughness to offsets from the mirror
+// direction, along T1 in the plane of view and T2 across it,
+//   L = 2 [ex mx, ey my; -ey mx c, ex my c],  e = o_xy/|o_xy|,  c^2 = max(o_z, .03)^2 + (ox mx)^2 + (oy
+//   my)^2.
 // V diagonalises L^T L; the singular values multiply to 4 mx my c.
 LobeAxes lobe_axes(vec3 local_o, vec2 roughness) {
     vec2 e = view_plane(local_o).xy;
@@ -68,7 +73,8 @@ LobeAxes lobe_axes(vec3 local_o, vec2 roughness) {
 // Of the linear map's variance, what a component has.
 float variance_share(vec2 roughness, float rho) {
     const float less = MATCHED_NARROW_LESS - MATCHED_NARROW_LESS_OF_ONE / float(SAMPLE_COUNT);
-    return MATCHED_VARIANCE_SHARE * (1.0 - less * exp(-MATCHED_NARROW_DECAY * roughness.x * roughness.y) / rho);
+    return MATCHED_VARIANCE_SHARE *
+           (1.0 - less * exp(-MATCHED_NARROW_DECAY * roughness.x * roughness.y) / rho);
 }
 
 MixtureView view_mixture(LobeView v, uint table_begin, float level_share, vec3 specular, vec3 grazing) {
@@ -92,7 +98,8 @@ MixtureView view_mixture(LobeView v, uint table_begin, float level_share, vec3 s
     view.h2 = dot(view.h, view.h);
     view.share = level_share;
     float node = log2(axes.rho) * (float(MATCHED_ROWS - 1u) / MATCHED_LOG2_LARGEST_RHO) + 0.5;
-    view.row = int(table_begin) + int((SAMPLE_COUNT + 1u) / 2u) * int(node < float(MATCHED_ROWS - 1u) ? node : float(MATCHED_ROWS - 1u));
+    view.row = int(table_begin) + int((SAMPLE_COUNT + 1u) / 2u) *
+                                      int(node < float(MATCHED_ROWS - 1u) ? node : float(MATCHED_ROWS - 1u));
     // Where nothing is reflected, some direction must still come out.
     view.fresnel = vec2(dot(specular, vec3(1.0)), dot(grazing, vec3(1.0)));
     view.fresnel.x = max(view.fresnel.x, 1e-3 * view.fresnel.y);
@@ -100,7 +107,8 @@ MixtureView view_mixture(LobeView v, uint table_begin, float level_share, vec3 s
     return view;
 }
 
-// cos_i^(1-alpha), a trace of it below the horizon: a component that lies there has a direction and next to no weight.
+// cos_i^(1-alpha), a trace of it below the horizon: a component that lies there has a direction and next to
+// no weight.
 float lit_power(float cos_i, float alpha) {
     const float trace = 1e-8;
     if (ALPHA == ALPHA_ZERO) return cos_i > trace ? cos_i : trace;
@@ -110,18 +118,18 @@ float lit_power(float cos_i, float alpha) {
 
 // Means of a component over its points: what it reflects, and the direction in which.
 struct Component {
-    float base;    // sum of w, w = cos_i^(1-alpha)/cos_h times a point's share
-    float schlick; // sum of w (1 - o.h)^5
-    float gain;    // sum of F w
+    float base;     // sum of w, w = cos_i^(1-alpha)/cos_h times a point's share
+    float schlick;  // sum of w (1 - o.h)^5
+    float gain;     // sum of F w
     vec3 direction; // sum of F w omega_i, environment space
 };
 
-// Level at which a lookup has a variance, given as a share of level 1's: 4^l grows with the level, but level 0 is not filtered, and
-// below level 1 the mix of both has that share of level 1.
+// Level at which a lookup has a variance, given as a share of level 1's: 4^l grows with the level, but level
+// 0 is not filtered, and below level 1 the mix of both has that share of level 1.
 float spherical_level(float share) { return share > 1.0 ? 1.0 + 0.5 * log2(share) : share; }
 
-// `share` is the linear map's, see spherical_level. Half of the spread of what the points reflect, 1 - |M|/G, is the least:
-// it is more where the centre reflects the horizon.
+// `share` is the linear map's, see spherical_level. Half of the spread of what the points reflect, 1 - |M|/G,
+// is the least: it is more where the centre reflects the horizon.
 Lookup finish_component(LobeView v, MixtureView view, Component component, float weight, float share) {
     Lookup lookup;
     float spread = 1.0 - length(component.direction) / component.gain;
@@ -139,14 +147,14 @@ struct Pair {
     float s;
     float weight;
     vec2 lengths, inverse; // |g| at the points n + d + s h and n + d - s h, and |g|^-2
-    float bend; // what the curvature across h leaves of q
+    float bend;            // what the curvature across h leaves of q
     float deviation;       // o.(s h)
     float variance;
 };
 
-// A narrow component by two points, one deviation to either side of its centre along the direction in which cos_i changes most:
-// exact to second order in the product of weight and direction. The reflection bends across that direction as well: on average
-// q is shorter there by s^2 |p|^2.
+// A narrow component by two points, one deviation to either side of its centre along the direction in which
+// cos_i changes most: exact to second order in the product of weight and direction. The reflection bends
+// across that direction as well: on average q is shorter there by s^2 |p|^2.
 Lookup place_narrow(LobeView v, MixtureView view, Pair pair, vec3 d, float og, vec2 lengths, vec2 inverse) {
     vec2 products = vec2(og + pair.deviation, og - pair.deviation);
     vec2 q = (2.0 * pair.bend) * products * inverse;
@@ -162,8 +170,8 @@ Lookup place_narrow(LobeView v, MixtureView view, Pair pair, vec3 d, float og, v
     }
     component.gain = share.x + share.y;
     vec2 along = share * q;
-    component.direction =
-        (along.x + along.y) * (v.frame[2] + d) + (pair.s * (along.x - along.y)) * view.h - component.gain * v.omega_o;
+    component.direction = (along.x + along.y) * (v.frame[2] + d) + (pair.s * (along.x - along.y)) * view.h -
+                          component.gain * v.omega_o;
     return finish_component(v, view, component, pair.weight, pair.variance * og);
 }
 
@@ -184,8 +192,8 @@ void add_point(LobeView v, MixtureView view, vec3 offset, float share, inout Com
     component.direction += weight * (q * g - v.omega_o);
 }
 
-// A wide component by its centre and four corners at sqrt(1.2) deviations: exact to the third degree, and of the rules of up to nine
-// points the one that errs least on wide lobes. Its variance is -ln(|M|/G).
+// A wide component by its centre and four corners at sqrt(1.2) deviations: exact to the third degree, and of
+// the rules of up to nine points the one that errs least on wide lobes. Its variance is -ln(|M|/G).
 Lookup place_wide(LobeView v, MixtureView view, Pair pair, vec3 d, float og) {
     vec3 along = (1.0954451 * pair.s * view.inverse_rho) * view.g1, across = (1.0954451 * pair.s) * view.g2;
     Component component = Component(0.0, 0.0, 0.0, vec3(0.0));
@@ -210,7 +218,8 @@ void place_pair(LobeView v, MixtureView view, vec4 entry, out Lookup one, out Lo
     pair.lengths = length2 * inverse_length;
     pair.inverse = inverse_length * inverse_length;
     pair.deviation = pair.s * view.oh;
-    // (s b)^2 (o.h) cos_h^3/c, the variance of the linear map, with the lengths at both points; og is left to each.
+    // (s b)^2 (o.h) cos_h^3/c, the variance of the linear map, with the lengths at both points; og is left to
+    // each.
     pair.variance = s2 * view.share * view.linear * (pair.inverse.x * pair.inverse.y);
     float od = entry.x * view.o1 + entry.y * view.o2;
     if (HAS_WIDE_COMPONENTS) {
@@ -225,9 +234,14 @@ void place_pair(LobeView v, MixtureView view, vec4 entry, out Lookup one, out Lo
 
 vec4 mixture_entry(MixtureView view, uint which) { return sample_entry(view.row + int(which)); }
 
-#define PLACE_PAIR(k, one, other) if (SAMPLE_COUNT / 2u > uint(k)) place_pair(v, view, mixture_entry(view, odd + uint(k)), one, other);
-#define ADD_PAIR(k, one, other) if (SAMPLE_COUNT / 2u > uint(k)) { add_lookup(sums, one); add_lookup(sums, other); }
-#define GATHER_PAIRS(a, b) PLACE_PAIR(a, l0, l1) PLACE_PAIR(b, l2, l3) ADD_PAIR(a, l0, l1) ADD_PAIR(b, l2, l3)
+// clang-format off
+#define PLACE_PAIR(k, one, other)                                                                            \
+    if (SAMPLE_COUNT / 2u > uint(k)) place_pair(v, view, mixture_entry(view, odd + uint(k)), one, other);
+#define ADD_PAIR(k, one, other)                                                                              \
+    if (SAMPLE_COUNT / 2u > uint(k)) { add_lookup(sums, one); add_lookup(sums, other); }
+#define GATHER_PAIRS(a, b)                                                                                   \
+    PLACE_PAIR(a, l0, l1) PLACE_PAIR(b, l2, l3) ADD_PAIR(a, l0, l1) ADD_PAIR(b, l2, l3)
+// clang-format on
 
 LobeSums gather_matched(LobeView v, MixtureView view) {
     LobeSums sums = LobeSums(vec3(0.0), vec3(0.0), 0.0, 0.0, 0.0);
@@ -237,11 +251,13 @@ LobeSums gather_matched(LobeView v, MixtureView view) {
         place_pair(v, view, mixture_entry(view, 0u), l0, l1);
         add_lookup(sums, l0);
     }
+    // clang-format off
     GATHER_PAIRS(0, 1) GATHER_PAIRS(2, 3) GATHER_PAIRS(4, 5) GATHER_PAIRS(6, 7)
     GATHER_PAIRS(8, 9) GATHER_PAIRS(10, 11) GATHER_PAIRS(12, 13) GATHER_PAIRS(14, 15)
     GATHER_PAIRS(16, 17) GATHER_PAIRS(18, 19) GATHER_PAIRS(20, 21) GATHER_PAIRS(22, 23)
     GATHER_PAIRS(24, 25) GATHER_PAIRS(26, 27) GATHER_PAIRS(28, 29) GATHER_PAIRS(30, 31)
     return sums;
+    // clang-format on
 }
 
 #endif

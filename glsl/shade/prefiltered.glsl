@@ -1,4 +1,5 @@
-// Radiance of one lobe by one lookup in a prefiltered map (shared/prefilter.h), times its exact albedo: the split sum.
+// Radiance of one lobe by one lookup in a prefiltered map (shared/prefilter.h), times its exact albedo: the
+// split sum.
 #ifndef BURNISH_SHADE_PREFILTERED
 #define BURNISH_SHADE_PREFILTERED
 
@@ -6,15 +7,16 @@
 #include "shade/surface_point.glsl"
 #include "shared/prefilter.h"
 
-// Level whose lobe has this slope, between two levels by the log. The map stands at level 0 for the narrowest lobe it can show;
-// beyond the last level the lookup clamps.
+// Level whose lobe has this slope, between two levels by the log. The map stands at level 0 for the narrowest
+// lobe it can show; beyond the last level the lookup clamps.
 float prefiltered_level(float roughness, float face_size) {
     float level = log2(roughness * face_size / PREFILTER_SLOPE);
     const float map_level = log2(PREFILTER_MAP_SLOPE / PREFILTER_SLOPE);
     return level >= 1.0 ? level : max((level - map_level) / (1.0 - map_level), 0.0);
 }
 
-// The map knows round lobes: a brushed one is taken for the round one of equal area. Points seen from behind are black.
+// The map knows round lobes: a brushed one is taken for the round one of equal area. Points seen from behind
+// are black.
 vec3 look_up_prefiltered(LobeView v, SurfaceLobe lobe, vec2 albedo, float face_size) {
     vec3 mirror = 2.0 * v.local_o.z * v.frame[2] - v.omega_o;
     float level = prefiltered_level(lobe_filter_slope(shape_of(v)), face_size);

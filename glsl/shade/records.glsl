@@ -1,5 +1,6 @@
-// Records as shade kernels read them: rows of 16 bytes from texel buffers. A CPU device loads such a row at once, while each member
-// of a record in a storage buffer is a gather of its own (measured: a quarter of the cost of a pixel without its samples).
+// Records as shade kernels read them: rows of 16 bytes from texel buffers. A CPU device loads such a row at
+// once, while each member of a record in a storage buffer is a gather of its own (measured: a quarter of the
+// cost of a pixel without its samples).
 #ifndef BURNISH_SHADE_RECORDS
 #define BURNISH_SHADE_RECORDS
 
@@ -71,7 +72,9 @@ MapRecord load_map_record(uint index) {
     map.layer = row.y;
     map.face_size = row.z;
     map.alias_begin = row.w;
-    [[unroll]] for (int k = 0; k < 2 * int(MAX_SUNS); ++k) map.suns[k] = uintBitsToFloat(ROW(map_rows, MAP, 13 + k));
+    [[unroll]] for (int k = 0; k < 2 * int(MAX_SUNS); ++k) {
+        map.suns[k] = uintBitsToFloat(ROW(map_rows, MAP, 13 + k));
+    }
     return map;
 }
 

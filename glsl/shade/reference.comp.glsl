@@ -1,6 +1,8 @@
-// The truth a frame is judged by, one batch per dispatch. Two methods, for the diffuse part and every lobe alike:
+// The truth a frame is judged by, one batch per dispatch. Two methods, for the diffuse part and every lobe
+// alike:
 //   quadrature:  L = sum over level-0 texels of L_t f(i_t) cos_i solid angle_t;
-//   progressive: multiple importance sampling (balance heuristic) of map and lobe or cosine, level-0 lookups, a new random shift
+//   progressive: multiple importance sampling (balance heuristic) of map and lobe or cosine, level-0 lookups,
+//   a new random shift
 //                each batch, so that batches are independent and their spread gives the standard error.
 #version 460
 #extension GL_GOOGLE_include_directive : require
@@ -16,7 +18,8 @@
 layout(constant_id = SPEC_IS_QUADRATURE) const bool IS_QUADRATURE = false;
 
 layout(std430, binding = BINDING_TEXEL_ALIAS) readonly buffer Alias { TexelAlias texel_alias[]; };
-// Per point: rgb: sum of the batches' means; a: sum of the squares of their luminances. In the unit of the brightest map.
+// Per point: rgb: sum of the batches' means; a: sum of the squares of their luminances. In the unit of the
+// brightest map.
 layout(std430, binding = BINDING_STATISTICS) buffer Statistics { vec4 statistics[]; };
 
 struct LobeView {
@@ -97,11 +100,12 @@ float texel_pdf(vec3 w, MapRecord map) {
     uint face = cube_face_uv(w, uv);
     uvec2 texel = min(uvec2(max((uv * 0.5 + 0.5) * float(face_size), vec2(0.0))), uvec2(face_size - 1u));
     float face_texels = float(face_size * face_size);
-    return texel_alias[map.alias_begin + (face * face_size + texel.y) * face_size + texel.x].probability / texel_solid_angle(face_texels, w);
+    return texel_alias[map.alias_begin + (face * face_size + texel.y) * face_size + texel.x].probability /
+           texel_solid_angle(face_texels, w);
 }
 
-// A direction in proportion to the map's light: a texel by its alias table, a place in it at random. The texel comes from 32
-// bits: a large map has six million, which 24 bits would draw unevenly.
+// A direction in proportion to the map's light: a texel by its alias table, a place in it at random. The
+// texel comes from 32 bits: a large map has six million, which 24 bits would draw unevenly.
 vec3 draw_texel(uint index, uint seed, MapRecord map) {
     uint face_size = map.face_size;
     uint texel, fraction;
@@ -139,7 +143,8 @@ vec3 progressive(LobeView v, MapRecord map, uint seed) {
 vec3 weigh_cosine(vec3 direction, float cos_i, MapRecord map) {
     if (cos_i <= 0.0) return vec3(0.0);
     float value = cos_i / PI;
-    return value * look_up_finest(direction, float(map.layer)) / max(value + texel_pdf(direction, map), 1e-20);
+    return value * look_up_finest(direction, float(map.layer)) /
+           max(value + texel_pdf(direction, map), 1e-20);
 }
 
 vec3 diffuse_progressive(mat3 frame, MapRecord map, uint seed) {

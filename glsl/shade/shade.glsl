@@ -1,5 +1,5 @@
-// Shades surface points. An entry point defines `look_up_lobe`, one way of bringing a lobe's light together: with all of them in one
-// kernel a driver would take six times as long to compile it.
+// Shades surface points. An entry point defines `look_up_lobe`, one way of bringing a lobe's light together:
+// with all of them in one kernel a driver would take six times as long to compile it.
 #ifndef BURNISH_SHADE_SHADE
 #define BURNISH_SHADE_SHADE
 
@@ -45,9 +45,11 @@ void main() {
 
     vec3 radiance = vec3(0.0);
     if (HAS_DIFFUSE)
-        radiance += point_diffuse(point) * diffuse_light(map, material.map, environment_from_world(map, point.frame[2]));
-    [[unroll]] for (uint which = 0u; which < LOBE_COUNT; ++which)
+        radiance += point_diffuse(point) *
+                    diffuse_light(map, material.map, environment_from_world(map, point.frame[2]));
+    [[unroll]] for (uint which = 0u; which < LOBE_COUNT; ++which) {
         radiance += shade_lobe(point, map, material.lobe_begin + which, which);
+    }
     radiance *= map.radiance_scale;
     if (HAS_EMISSIVE) radiance += point_emissive(point);
     store_radiance(point, radiance, 1.0);

@@ -8,12 +8,14 @@
 layout(constant_id = SPEC_SUN_COUNT) const uint SUN_COUNT = 0u;
 const float SUN_MOST_STEP = 0.1414214; // of sqrt(2) deviations
 
-// A step of the half-vector changes its slope by this. No more of its change of h.z than a tenth counts: more would give
-// a half-vector along the surface the slopes of all others.
-vec2 slope_step(vec3 step, vec2 slope) { return step.xy - slope * clamp(step.z, -SUN_MOST_STEP, SUN_MOST_STEP); }
+// A step of the half-vector changes its slope by this. No more of its change of h.z than a tenth counts: more
+// would give a half-vector along the surface the slopes of all others.
+vec2 slope_step(vec3 step, vec2 slope) {
+    return step.xy - slope * clamp(step.z, -SUN_MOST_STEP, SUN_MOST_STEP);
+}
 
-// Flux times f cos_i of a lobe that is wider by the sun. A variance v of directions is v/4 of half-vectors in the plane of view and
-// light, v/(4 (o.h)^2) across it: at grazing views much more.
+// Flux times f cos_i of a lobe that is wider by the sun. A variance v of directions is v/4 of half-vectors in
+// the plane of view and light, v/(4 (o.h)^2) across it: at grazing views much more.
 vec3 shade_sun(LobeView v, vec4 sun, vec3 flux, vec3 specular, vec3 grazing) {
     vec3 omega_i = sun.xyz * v.frame;
     vec3 h = omega_i + v.local_o;
@@ -35,15 +37,18 @@ vec3 shade_sun(LobeView v, vec4 sun, vec3 flux, vec3 specular, vec3 grazing) {
     LobeShape shape = shape_of(v);
     float hz2 = h.z * h.z;
     float powers = cos_i_power(omega_i.z, v.alpha) * v.cos_o_power;
-    float value = lobe_widened_d(shape, w) / (hz2 * hz2) * lobe_rest(shape, omega_i, v.local_o, cos_d, powers);
+    float value =
+        lobe_widened_d(shape, w) / (hz2 * hz2) * lobe_rest(shape, omega_i, v.local_o, cos_d, powers);
     vec3 fresnel = HAS_FRESNEL ? specular + grazing * schlick_weight(cos_d) : specular;
     return is_seen ? value * fresnel * flux : vec3(0.0);
 }
 
 vec3 shade_suns(LobeView v, MapRecord map, vec3 specular, vec3 grazing) {
     vec3 sum = vec3(0.0);
-    [[unroll]] for (uint k = 0u; k < MAX_SUNS; ++k)
-        if (k < SUN_COUNT) sum += shade_sun(v, map.suns[2u * k], map.suns[2u * k + 1u].rgb, specular, grazing);
+    [[unroll]] for (uint k = 0u; k < MAX_SUNS; ++k) {
+        if (k < SUN_COUNT)
+            sum += shade_sun(v, map.suns[2u * k], map.suns[2u * k + 1u].rgb, specular, grazing);
+    }
     return sum;
 }
 

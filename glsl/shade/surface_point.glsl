@@ -14,17 +14,18 @@ struct SurfaceLobe {
 };
 
 struct PointToShade {
-    bool is_mine;  // else nothing is stored
-    bool is_seen;  // from in front; else it is black
-    uint index;    // into radiance_out
+    bool is_mine; // else nothing is stored
+    bool is_seen; // from in front; else it is black
+    uint index;   // into radiance_out
     uint material;
     ivec2 pixel;
-    mat3 frame;    // world
-    vec3 omega_o;  // world, unit, toward the eye
+    mat3 frame;   // world
+    vec3 omega_o; // world, unit, toward the eye
 };
 
 vec3 pixel_ray(ViewRecord view, vec2 pixel) {
-    return normalize(view.ray_corner.xyz + (pixel.x + 0.5) * view.ray_dx.xyz + (pixel.y + 0.5) * view.ray_dy.xyz);
+    return normalize(view.ray_corner.xyz + (pixel.x + 0.5) * view.ray_dx.xyz +
+                     (pixel.y + 0.5) * view.ray_dy.xyz);
 }
 
 uint group_index() { return gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x; }
@@ -34,7 +35,8 @@ bool locate_pixel(ViewRecord view, out ivec2 pixel) {
     uint tile_index = group_index();
     uint tile = tiles[SHADE_CLASS * push.tile_capacity + min(tile_index, push.tile_capacity - 1u)];
     pixel = ivec2(uvec2(tile & 0xffffu, tile >> 16) * TILE_SIZE + gl_LocalInvocationID.xy);
-    return tile_index < tile_counts[SHADE_CLASS].w && pixel.x < int(view.width_px) && pixel.y < int(view.height_px);
+    return tile_index < tile_counts[SHADE_CLASS].w && pixel.x < int(view.width_px) &&
+           pixel.y < int(view.height_px);
 }
 
 // A normal that interpolation or a normal map turned away from the eye is bent back to just face it.
@@ -44,13 +46,15 @@ vec3 facing_normal(vec3 n, vec3 omega_o) {
     return cos_o < least ? normalize(n + (least - cos_o) * omega_o) : n;
 }
 
-// The frame of the bent normal. Its tangent and the packed one are unit vectors: one step of what frame_from_tangent does in two
-// will do. Where the normal was bent until it lies along the tangent, the old normal lies in the surface.
+// The frame of the bent normal. Its tangent and the packed one are unit vectors: one step of what
+// frame_from_tangent does in two will do. Where the normal was bent until it lies along the tangent, the old
+// normal lies in the surface.
 mat3 facing_frame(PackedFrame packed_frame, vec3 omega_o) {
     vec3 n = facing_normal(packed_frame.normal, omega_o);
     vec3 t = packed_frame.tangent;
     float along = dot(n, t);
-    vec3 across = 1.0 - along * along > 1e-4 ? t - along * n : packed_frame.normal - dot(n, packed_frame.normal) * n;
+    vec3 across =
+        1.0 - along * along > 1e-4 ? t - along * n : packed_frame.normal - dot(n, packed_frame.normal) * n;
     vec3 tangent = across * inversesqrt(max(dot(across, across), 1e-36));
     return mat3(tangent, packed_frame.handedness * cross(n, tangent), n);
 }
@@ -67,7 +71,8 @@ PointToShade load_point() {
         point.frame = frame_from_tangent(given.normal.xyz, given.tangent.xyz, given.tangent.w);
         float cos_o = dot(given.normal.xyz, given.omega_o.xyz);
         point.is_seen = cos_o > 0.0;
-        // Raised to MIN_COS like the cosine in the lobe's grazing power: where og and q would be rounding alone.
+        // Raised to MIN_COS like the cosine in the lobe's grazing power: where og and q would be rounding
+        // alone.
         point.omega_o = given.omega_o.xyz + max(MIN_COS - cos_o, 0.0) * given.normal.xyz;
         return point;
     }
@@ -76,7 +81,8 @@ PointToShade load_point() {
     uvec2 surface = imageLoad(surface_image, point.pixel).xy;
     point.index = uint(point.pixel.y) * view.width_px + uint(point.pixel.x);
     point.material = has_surface(surface) ? unpack_material(surface) : 0u;
-    point.is_mine = is_inside && has_surface(surface) && load_material(point.material).shade_class == SHADE_CLASS;
+    point.is_mine =
+        is_inside && has_surface(surface) && load_material(point.material).shade_class == SHADE_CLASS;
     point.omega_o = -pixel_ray(view, vec2(point.pixel));
     point.is_seen = true; // see facing_normal
     if (HAS_TANGENT) {
@@ -88,7 +94,8 @@ PointToShade load_point() {
 }
 
 vec3 point_diffuse(PointToShade point) {
-    return HAS_VARYING ? imageLoad(varying_diffuse, point.pixel).rgb : load_material(point.material).diffuse.rgb;
+    return HAS_VARYING ? imageLoad(varying_diffuse, point.pixel).rgb
+                       : load_material(point.material).diffuse.rgb;
 }
 
 vec3 point_emissive(PointToShade point) {
@@ -96,7 +103,8 @@ vec3 point_emissive(PointToShade point) {
     return HAS_VARYING ? imageLoad(varying_emissive, point.pixel).rgb * emissive.a : emissive.rgb;
 }
 
-// Of a varying material the clear coat is the last lobe and the base the first; where the base reflects nothing, the coat is both.
+// Of a varying material the clear coat is the last lobe and the base the first; where the base reflects
+// nothing, the coat is both.
 bool is_coat(uint which) { return HAS_VARYING && HAS_COAT && which + 1u == LOBE_COUNT; }
 
 // Lobe `which` of the point.
@@ -124,7 +132,8 @@ SurfaceLobe point_lobe(PointToShade point, uint lobe_index, uint which) {
 
 uint lobe_model(uint which) { return LOBE_MODELS >> (MODEL_BITS * which) & ((1u << MODEL_BITS) - 1u); }
 
-// The frame of lobe `which`. A normal map bends the base alone: the clear coat, which is round, has its own normal.
+// The frame of lobe `which`. A normal map bends the base alone: the clear coat, which is round, has its own
+// normal.
 mat3 point_frame(PointToShade point, uint which) {
     if (!HAS_COAT_NORMAL || !is_coat(which)) return point.frame;
     vec3 normal = octahedral_decode(unpackSnorm2x16(imageLoad(varying_coat, point.pixel).y));
@@ -133,11 +142,13 @@ mat3 point_frame(PointToShade point, uint which) {
 
 vec3 environment_from_world(MapRecord map, vec3 v) {
     if (!HAS_MAP_ROTATION) return v;
-    return vec3(dot(map.env_from_world_x.xyz, v), dot(map.env_from_world_y.xyz, v), dot(map.env_from_world_z.xyz, v));
+    return vec3(dot(map.env_from_world_x.xyz, v), dot(map.env_from_world_y.xyz, v),
+                dot(map.env_from_world_z.xyz, v));
 }
 
 mat3 environment_from_world(MapRecord map, mat3 frame) {
-    return mat3(environment_from_world(map, frame[0]), environment_from_world(map, frame[1]), environment_from_world(map, frame[2]));
+    return mat3(environment_from_world(map, frame[0]), environment_from_world(map, frame[1]),
+                environment_from_world(map, frame[2]));
 }
 
 // The frame turned by the lobe's rotation, counter-clockwise about the normal, seen from outside.

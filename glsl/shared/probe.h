@@ -1,4 +1,5 @@
-// Numbers of the functions of glsl/lib, for the probes that run one of them over a buffer; tests read them from here.
+// Numbers of the functions of glsl/lib, for the probes that run one of them over a buffer; tests read them
+// from here.
 #ifndef BURNISH_SHARED_PROBE_H
 #define BURNISH_SHARED_PROBE_H
 

@@ -19,15 +19,17 @@ struct LobeRecord {
     float alpha;   // grazing exponent, 0..1, of Kurt's
     float rotation_cos;
     float rotation_sin;
-    uint table_begin;      // first entry of its sample table
-    uint table_count;      // samples
-    uint albedo_begin;     // first entry of its albedo table
+    uint table_begin;        // first entry of its sample table
+    uint table_count;        // samples
+    uint albedo_begin;       // first entry of its albedo table
     uint albedo_width_nodes; // of a fixed roughness; 1 = round
-    float threshold_log;   // -ln xi0, for scaled tables of the regular pattern
-    uint conserves_energy; // 1: divided by its albedo where that exceeds 1
-    float level_share;     // of matched lookups: what a variance of 1 is of level 1's, face_texels / (16 SPHERICAL_VARIANCE)
-    uint view_columns;     // of a table by view: 1 = isotropic
-    uint view_drift;       // of a table by view, two halves: what slopes move by for a unit of the view along and across
+    float threshold_log;     // -ln xi0, for scaled tables of the regular pattern
+    uint conserves_energy;   // 1: divided by its albedo where that exceeds 1
+    float level_share;       // of matched lookups: what a variance of 1 is of level 1's, face_texels / (16
+                             // SPHERICAL_VARIANCE)
+    uint view_columns;       // of a table by view: 1 = isotropic
+    uint view_drift; // of a table by view, two halves: what slopes move by for a unit of the view along and
+                     // across
 };
 SHARED_SIZE(LobeRecord, 16 * LOBE_ROWS)
 
@@ -42,22 +44,24 @@ struct MaterialRecord {
 };
 SHARED_SIZE(MaterialRecord, 16 * MATERIAL_ROWS)
 
-// One environment map: where it lies and how it is turned. Columns of the matrix are rows of env_from_world. All light in it
-// is in the unit that its halves have, a power of two of radiance (scene/half_range.h).
+// One environment map: where it lies and how it is turned. Columns of the matrix are rows of env_from_world.
+// All light in it is in the unit that its halves have, a power of two of radiance (scene/half_range.h).
 struct MapRecord {
-    vec4 env_from_world_x; // xyz: environment x axis in world space; w: its unit in that of the reference's statistics
+    vec4 env_from_world_x; // xyz: environment x axis in world space; w: its unit in that of the reference's
+                           // statistics
     vec4 env_from_world_y; // w: 1 over the unit
     vec4 env_from_world_z;
-    vec4 irradiance[9]; // rgb: spherical-harmonic coefficients of irradiance / pi, in environment space
-    float radiance_scale; // 2^exposure times the unit
-    uint layer;           // cube in its array
-    uint face_size;       // texels
-    uint alias_begin;     // first entry of its TexelAlias table
+    vec4 irradiance[9];      // rgb: spherical-harmonic coefficients of irradiance / pi, in environment space
+    float radiance_scale;    // 2^exposure times the unit
+    uint layer;              // cube in its array
+    uint face_size;          // texels
+    uint alias_begin;        // first entry of its TexelAlias table
     vec4 suns[2 * MAX_SUNS]; // each: direction, environment space, and its variance; rgb: flux
 };
 SHARED_SIZE(MapRecord, 16 * MAP_ROWS)
 
-// The view a frame is drawn from. A pixel's ray is ray_corner + (x + .5) ray_dx + (y + .5) ray_dy, x right, y down.
+// The view a frame is drawn from. A pixel's ray is ray_corner + (x + .5) ray_dx + (y + .5) ray_dy, x right, y
+// down.
 struct ViewRecord {
     mat4 clip_from_world; // reverse z; the world's axes, its origin at the eye
     vec4 ray_corner;      // xyz: world direction through the picture's top left corner, not normalised
@@ -66,7 +70,7 @@ struct ViewRecord {
     uint width_px;
     uint height_px;
     uint background_map; // MapRecord behind everything
-    uint picture; // of those that are averaged, counted from 0
+    uint picture;        // of those that are averaged, counted from 0
 };
 SHARED_SIZE(ViewRecord, 128)
 
@@ -81,23 +85,25 @@ SHARED_SIZE(SurfacePoint, 48)
 // Values that were stopped because they were not finite, by the pass that they come from, GUARD_*.
 struct Counters {
     uint stopped[4];
-    uint first[4]; // complement of the lowest index into the picture or the list of points; 0 where none was stopped
+    uint first[4]; // complement of the lowest index into the picture or the list of points; 0 where none was
+                   // stopped
 };
 SHARED_SIZE(Counters, 32)
 
 // What the surface pass needs of a metallic-roughness material to map it at every pixel.
 struct SurfaceRecord {
-    vec4 base_color;      // linear RGB, coverage
-    vec4 emissive;        // rgb: radiance in the material's unit (MaterialRecord); a: alpha cutoff
-    vec4 specular;        // rgb: reflectance at normal incidence of a dielectric, from ior and specular colour; a: specular
+    vec4 base_color; // linear RGB, coverage
+    vec4 emissive;   // rgb: radiance in the material's unit (MaterialRecord); a: alpha cutoff
+    vec4 specular;   // rgb: reflectance at normal incidence of a dielectric, from ior and specular colour; a:
+                     // specular
     float metallic;
-    float roughness;      // perceptual
-    float anisotropy;     // strength
+    float roughness;  // perceptual
+    float anisotropy; // strength
     float clearcoat;
     float clearcoat_roughness; // perceptual
     float normal_scale;
     float occlusion_strength;
-    uint texture_begin;   // first of its TEXTURE_KINDS TextureRecords
+    uint texture_begin; // first of its TEXTURE_KINDS TextureRecords
     float clearcoat_normal_scale;
     uint pad0;
     uint pad1;
@@ -107,7 +113,7 @@ SHARED_SIZE(SurfaceRecord, 96)
 
 // Push constants of one draw.
 struct DrawRecord {
-    mat4 world_from_object; // to the world's axes with the origin at the eye
+    mat4 world_from_object;    // to the world's axes with the origin at the eye
     vec4 normal_from_object_x; // columns of the inverse transpose; x.w: +-1, the sign of its determinant
     vec4 normal_from_object_y;
     vec4 normal_from_object_z;
@@ -120,11 +126,11 @@ SHARED_SIZE(DrawRecord, 128)
 
 // Push constants of the shade kernels.
 struct ShadeRecord {
-    uint point_count;  // or of pixels; behind as many lies what was not finite (shade/guard.glsl)
+    uint point_count;   // or of pixels; behind as many lies what was not finite (shade/guard.glsl)
     uint tile_capacity; // tiles a class's list can hold
-    uint batch;        // of a progressive reference, counted from 0
-    uint batch_size;   // samples in a batch
-    uint texel_begin;  // of a quadrature reference: texels of the map done in this dispatch
+    uint batch;         // of a progressive reference, counted from 0
+    uint batch_size;    // samples in a batch
+    uint texel_begin;   // of a quadrature reference: texels of the map done in this dispatch
     uint texel_end;
     float display_scale; // of display output: 2^exposure
     uint pad0;
@@ -153,7 +159,7 @@ SHARED_SIZE(TexelAlias, 16)
 struct TextureRecord {
     vec4 scale_rotation; // columns of the 2x2 matrix: xy, zw
     vec2 offset;
-    uint uv_set; // 0 or 1
+    uint uv_set;          // 0 or 1
     uint coverage_levels; // COVERAGE_LEVELS_*: of the base colour, what alpha of its mip levels is
 };
 SHARED_SIZE(TextureRecord, 32)

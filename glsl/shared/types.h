@@ -6,11 +6,11 @@
 #ifdef __cplusplus
 #include <cstdint>
 #include <glm/glm.hpp>
-#define SHARED_BEGIN                                                                                                   \
-    namespace burnish::shared {                                                                                        \
-    using glm::mat4;                                                                                                   \
-    using glm::vec2;                                                                                                   \
-    using glm::vec4;                                                                                                   \
+#define SHARED_BEGIN                                                                                         \
+    namespace burnish::shared {                                                                              \
+    using glm::mat4;                                                                                         \
+    using glm::vec2;                                                                                         \
+    using glm::vec4;                                                                                         \
     using uint = uint32_t;
 #define SHARED_END }
 #define SHARED_SIZE(name, bytes) static_assert(sizeof(name) == bytes);

@@ -16,7 +16,8 @@ layout(location = 0) out uvec2 surface;
 
 void main() {
     vec3 normal = normalize(normal_world);
-    // Seen from behind the normal turns around, and tangent and bitangent stay: what is brushed lies on both sides the same way.
+    // Seen from behind the normal turns around, and tangent and bitangent stay: what is brushed lies on both
+    // sides the same way.
     bool is_turned = IS_DOUBLE_SIDED && !gl_FrontFacing;
     if (is_turned) normal = -normal;
     if (HAS_TANGENT) {

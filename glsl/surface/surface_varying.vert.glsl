@@ -1,5 +1,5 @@
-// Vertices of materials that vary over a surface. What textures need is fetched here alone: on a CPU device it costs as much again
-// as the rest of a vertex.
+// Vertices of materials that vary over a surface. What textures need is fetched here alone: on a CPU device
+// it costs as much again as the rest of a vertex.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
