@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 from PIL import Image
 
-from burnish import Environment, KurtLobe, Material, Mesh, Scene
+from burnish import Environment, GgxLobe, KurtLobe, Material, Mesh, Scene
 
 Row = tuple[str, tuple[str, ...], tuple[Scene, Scene, Scene], tuple[int, int, int]]
 # As good as nothing in any pixel, yet not nothing to the plan.
@@ -22,7 +22,7 @@ def _sphere(environment: Environment, material: Material) -> Scene:
     return scene
 
 
-def _lobes(environment: Environment, *lobes: KurtLobe, **fields: object) -> Scene:
+def _lobes(environment: Environment, *lobes: KurtLobe | GgxLobe, **fields: object) -> Scene:
     return _sphere(environment, Material(lobes=list(lobes), **fields))
 
 
@@ -151,6 +151,8 @@ def effect_scenes(folder: Path, environment: Environment) -> Iterator[Row]:
     lobe = KurtLobe(0.1)
     once = (1, 1, 1)
     rows: dict[str, tuple[Scene, Scene]] = {
+        # A model has no zero: the lobe that it stands in for comes twice.
+        "GGX in Kurt's place": (plain, _lobes(environment, GgxLobe(0.1))),
         "fresnel": (
             _lobes(environment, KurtLobe(0.1, r0=1 - TRACE)),
             _lobes(environment, KurtLobe(0.1, r0=0.04)),

@@ -56,7 +56,7 @@ uint32_t shared_coat(uint32_t value, const Variant& variant) {
 constexpr std::array EFFECTS = {
     Effect{shared::SPEC_LOBE_COUNT, "lobe", "no material has a lobe", true, true,
            [](const Subject& one) { return uint32_t(one.material.lobes.size()); }, nullptr},
-    Effect{shared::SPEC_LOBE_MODELS, "other lobe models", "every lobe is of the first model", true, true,
+    Effect{shared::SPEC_LOBE_MODELS, "other lobe models", "every lobe is of the default model", true, true,
            lobe_models, nullptr},
     Effect{shared::SPEC_HAS_FRESNEL, "fresnel", "every lobe has r0 = 1", true, false,
            [](const Subject& one) { return uint32_t(has_fresnel(one)); }, on_of_lobes},

@@ -30,7 +30,7 @@ STUDENT_PATH = TABLE_PATH.with_name("student.txt")
 #: Of the committed files; the one place that knows them.
 TABLE_SHA256 = {
     TABLE_PATH: "b2106b8a93dc66a7a132c70776ded058690b7c49afa3779b7551469fd5cb1ec7",
-    STUDENT_PATH: "0b66db19f1fe284d6e5307b76f1e8a5ca60ff0ed47cd90f0eee20b86212c55c5",
+    STUDENT_PATH: "b79e22d285ed92ea1507cd9d563c17cf017ec51c039711bf102487cd0e15ff8e",
 }
 
 

@@ -31,6 +31,8 @@ LEAST_WIDTH = 0.02
 _MOST_WIDTH, _MOST_WIDTH_LONG = 1.2, 2.0
 # Of a lobe with a tail, which one or two wide samples stand for.
 _MOST_WIDTH_STUDENT = 12.0
+# Weight of their variances being equal on short lobes: what differs would turn with the plane of view.
+_STUDENT_ROUNDNESS = 0.3
 # Deviations of the blurs, in minor axes; the first compares the mixture itself.
 _SCALES = (0.0, 0.5, 1.0, 2.0, 4.0, 8.0, 16.0, 32.0)
 # Weight of the unblurred difference against the blurred ones', along long lobes and, added, on short ones.
@@ -57,6 +59,7 @@ class Target:
     spread: Float64  # t
     has_moments: bool  # whether the mixture keeps its variances
     most_width: float  # of a sample where samples fill the lobe
+    roundness: float = 0.0  # weight of variances being equal on short lobes, where they are not kept
 
     def squares(self, sigma: float) -> Float64:
         """Integrals of the squares of the lobes of all ASPECTS, blurred by a deviation."""
@@ -80,7 +83,13 @@ def student_target(window: float) -> Target:
     u = np.exp(np.linspace(math.log(1e-3), math.log(14.0), 15))
     windowed = u + 0.5 / window**2
     share = u * np.exp(-u) * u / windowed
-    return Target(share / np.sum(share), 1 / windowed, has_moments=False, most_width=_MOST_WIDTH_STUDENT)
+    return Target(
+        share / np.sum(share),
+        1 / windowed,
+        has_moments=False,
+        most_width=_MOST_WIDTH_STUDENT,
+        roundness=_STUDENT_ROUNDNESS,
+    )
 
 
 @dataclass(frozen=True)
@@ -153,8 +162,8 @@ def loss_and_gradient(
             / sum_i c_i |K*N_i|^2 + lambda (m0^2 + m1^2 + short m2^2),
         m0 = sum w - 1, m1 = sum w (x1^2 + s^2)/rho^2 - 1/2, m2 = sum w (x2^2 + s^2) - 1/2;
 
-    m1 and m2 count where the lobe has such moments; the first ones vanish by symmetry, and a blur adds its
-    variance to each Gaussian's. The term of eps is the expected error of lookups whose kernel differs from a
+    the first moments vanish by symmetry. For a lobe without second ones, roundness short ((m1 - m2)^2 +
+    4 (sum w x1 x2/rho)^2) stands for the last two. A blur adds its variance to each Gaussian's. The term of eps is the expected error of lookups whose kernel differs from a
     Gaussian by a relative eps, alike for neighbours. Neighbouring aspects are drawn together by
     mu/n |p_{j+1} - p_j|^2/ln(rho_{j+1}/rho_j).
     `kernel_error` is eps, `moment_weight` lambda.
@@ -213,15 +222,23 @@ def loss_and_gradient(
 
     short = short_share(samples, SHORT_MOMENT)
     total = np.sum(mass, axis=1) - 1
-    keeps = 1.0 if target.has_moments else 0.0
-    spread1 = np.sum(mass * (x1**2 + s2), axis=1) / ASPECTS**2 - 0.5
-    spread2 = np.sum(mass * (x2**2 + s2), axis=1) - 0.5
-    loss += moment_weight * (total**2 + keeps * (spread1**2 + short * spread2**2))
-    slopes = (total, keeps * spread1 / ASPECTS**2, keeps * short * spread2)
-    m0, m1, m2 = (2 * moment_weight * m[:, None] for m in slopes)
-    d_mass += m0 + m1 * (x1**2 + s2) + m2 * (x2**2 + s2)
-    d_x1 += 2 * mass * x1 * m1
-    d_x2 += 2 * mass * x2 * m2
+    spread1 = np.sum(mass * (x1**2 + s2), axis=1) / ASPECTS**2
+    spread2 = np.sum(mass * (x2**2 + s2), axis=1)
+    skew = np.sum(mass * x1 * x2, axis=1) / ASPECTS
+    if target.has_moments:
+        spread1, spread2, skew = spread1 - 0.5, spread2 - 0.5, np.zeros_like(skew)
+        loss += moment_weight * (total**2 + spread1**2 + short * spread2**2)
+        slopes = (total, spread1 / ASPECTS**2, short * spread2, skew)
+    else:
+        uneven = target.roundness * short * (spread1 - spread2)
+        skew = target.roundness * short * skew
+        loss += moment_weight * (total**2 + uneven * (spread1 - spread2))
+        loss += moment_weight * 4 * skew * np.sum(mass * x1 * x2, axis=1) / ASPECTS
+        slopes = (total, uneven / ASPECTS**2, -uneven, 4 * skew / ASPECTS)
+    m0, m1, m2, m12 = (2 * moment_weight * m[:, None] for m in slopes)
+    d_mass += m0 + m1 * (x1**2 + s2) + m2 * (x2**2 + s2) + m12 * x1 * x2
+    d_x1 += mass * (2 * x1 * m1 + x2 * m12)
+    d_x2 += mass * (2 * x2 * m2 + x1 * m12)
     d_s2 += mass * (m1 + m2)
 
     weight = node_weights(samples)
