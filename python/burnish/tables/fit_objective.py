@@ -163,9 +163,9 @@ def loss_and_gradient(
         m0 = sum w - 1, m1 = sum w (x1^2 + s^2)/rho^2 - 1/2, m2 = sum w (x2^2 + s^2) - 1/2;
 
     the first moments vanish by symmetry. For a lobe without second ones, roundness short ((m1 - m2)^2 +
-    4 (sum w x1 x2/rho)^2) stands for the last two. A blur adds its variance to each Gaussian's. The term of eps is the expected error of lookups whose kernel differs from a
-    Gaussian by a relative eps, alike for neighbours. Neighbouring aspects are drawn together by
-    mu/n |p_{j+1} - p_j|^2/ln(rho_{j+1}/rho_j).
+    4 (sum w x1 x2/rho)^2) stands for the last two. A blur adds its variance to each Gaussian's. The term of
+    eps is the expected error of lookups whose kernel differs from a Gaussian by a relative eps, alike for
+    neighbours. Neighbouring aspects are drawn together by mu/n |p_{j+1} - p_j|^2/ln(rho_{j+1}/rho_j).
     `kernel_error` is eps, `moment_weight` lambda.
     """
     mixtures = unpack(samples, unknowns)
