@@ -18,7 +18,6 @@ from burnish.tables.fit_objective import (
     unpack,
 )
 
-
 TARGETS = {"gaussian": GAUSSIAN, "student": student_target(np.inf), "in a window": student_target(2.7)}
 
 
