@@ -108,7 +108,7 @@ TableForm matched_form(const Material& material, bool fit_tables, ShadeClass& on
         if (fit_tables) return TableForm::matched_by_view;
         throw std::invalid_argument(
             message("scene: expected brushed lobes whose tables by view have at most ", MOST_VIEW_ENTRIES,
-                    " entries in all, got more; fewer samples or \"", "importance\" need less"));
+                    " entries in all, got more: fewer samples need fewer, importance sampling none"));
     }
     if (!has_varying && !any_lobe(material, [&](const LobeFacts& lobe) {
             return lobe.is_brushed && !(fit_tables && fits_view_table(lobe.width()));

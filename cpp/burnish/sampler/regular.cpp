@@ -1,5 +1,6 @@
 #include "burnish/sampler/regular.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
@@ -94,9 +95,11 @@ PlanePoints plane_points(const Regular& sampler, const LobeShape& shape) {
                     " lobe, whose half-vectors depend on the view"));
     const glm::dvec2 m = shape.width();
     // The one at which a Gaussian has the radius that the density falls to the threshold at.
-    const double threshold = shape.model->density == Density::gaussian
-                                 ? double(sampler.threshold)
-                                 : std::exp(1.0 - 1.0 / std::sqrt(double(sampler.threshold)));
+    constexpr double LEAST = 1e-300;
+    const double threshold =
+        shape.model->density == Density::gaussian
+            ? double(sampler.threshold)
+            : std::max(std::exp(1.0 - 1.0 / std::sqrt(double(sampler.threshold))), LEAST);
     const std::vector<glm::dvec3> pattern = choose_regular_pattern(m, sampler.samples, threshold);
     const double solid_angle = lobe_solid_angle(m, threshold) / double(pattern.size());
     PlanePoints points;

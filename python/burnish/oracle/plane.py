@@ -47,7 +47,9 @@ def plane_points(sampler: Any, lobe: Any) -> tuple[Array, Array]:
         return p, 1 / (len(p) * plane_density(p, density))
     mx, my = slopes(lobe)
     # Kurt's threshold at which a radius is the one that K falls to the threshold at.
-    threshold = sampler.threshold if density == "gaussian" else np.exp(1 - sampler.threshold**-0.5)
+    threshold = float(sampler.threshold)
+    if density != "gaussian":
+        threshold = max(float(np.exp(1 - threshold**-0.5)), 1e-300)
     h = choose_pattern((mx, my), sampler.samples, threshold)
     area = lobe_solid_angle(mx, my, threshold) / (len(h) * mx * my * h[:, 2] ** 3)
     return h[:, :2] / h[:, 2:] / [mx, my], area

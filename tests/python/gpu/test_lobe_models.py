@@ -66,8 +66,9 @@ def shade(device, environment, lobes, sampler, points):
         burnish.Importance(100, points="fibonacci", mip_bias=-0.5),
         burnish.Regular(20),
         burnish.Regular(14, normalization="projected", mip_bias=0.5),
+        burnish.Regular(14, threshold=1e-7),
     ],
-    ids=["importance", "importance in a loop", "regular", "regular projected"],
+    ids=["importance", "importance in a loop", "regular", "regular projected", "regular to the end"],
 )
 def test_patterns_equal_the_oracle(device, spots64, points, name, sampler):
     material = burnish.Material(lobes=[LOBES[name]])
