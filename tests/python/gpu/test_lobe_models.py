@@ -167,6 +167,30 @@ def test_models_share_a_material(device, spots64, points, sampler):
     compare(device, shade(device, spots64, lobes, sampler, points), alone)
 
 
+def test_models_share_a_picture(device, spots64):
+    """A sphere beside one of another model looks as it does beside one of its own."""
+    lobes = [MODELS["GGX"]["round"], MODELS["Kurt"]["round"]]
+
+    def draw(*chosen):
+        scene = burnish.Scene.spheres([burnish.Material(lobes=[lobe]) for lobe in chosen], 2)
+        scene.environment = spots64
+        return burnish.render(scene, size=(40, 80), sampler=burnish.Matched(5), device=device).color
+
+    ggx, kurt = (draw(lobe, lobe) for lobe in lobes)
+    both = draw(*lobes)
+    np.testing.assert_allclose(both[:, :40], ggx[:, :40], rtol=1e-5, atol=1e-5)
+    np.testing.assert_allclose(both[:, 40:], kurt[:, 40:], rtol=1e-5, atol=1e-5)
+
+
+def test_tables_by_view_beyond_their_memory_are_refused(device, spots64):
+    """No kernel places such lobes at a point instead."""
+    lobes = [burnish.GgxLobe((0.3, 0.1 + 0.001 * k), r0=0.04) for k in range(8)]
+    scene = burnish.Scene.spheres([burnish.Material(lobes=[lobe]) for lobe in lobes], 4)
+    scene.environment = spots64
+    with pytest.raises(ValueError, match="tables by view have at most 16000000 entries"):
+        burnish.render(scene, size=(8, 8), sampler=burnish.Matched(64), device=device)
+
+
 @pytest.mark.parametrize("wrong", [{"normalization": "published"}, {"footprint": "published"}])
 def test_printed_forms_are_refused_where_none_is_printed(device, spots64, points, wrong):
     sampler = burnish.Regular(14, **wrong)
