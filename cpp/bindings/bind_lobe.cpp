@@ -83,8 +83,9 @@ void bind_ggx_lobe(py::module_& m) {
         m, "GgxLobe",
         R"(One glossy lobe after Trowbridge and Reitz 1975 (GGX). It does not change once made.
 
-f = weight F(u) D V with F(u) = r0 + (f90 - r0)(1 - u)^5, u = o.h, D = 1/(pi ax ay ((hx/ax)^2 + (hy/ay)^2 + hz^2)^2) and
-Smith's height-correlated V = 1/(2 (co a(i) + ci a(o))), a(v)^2 = vz^2 + (ax vx)^2 + (ay vy)^2.
+f = weight F(u) D V with F(u) = r0 + (f90 - r0)(1 - u)^5, u = o.h,
+D = 1/(pi ax ay ((hx/ax)^2 + (hy/ay)^2 + hz^2)^2) and Smith's height-correlated
+V = 1/(2 (co a(i) + ci a(o))), a(v)^2 = vz^2 + (ax vx)^2 + (ay vy)^2.
 
 Parameters
 ----------
@@ -118,6 +119,8 @@ ValueError
         .def_property_readonly(
             "weight", [](const GgxLobe& l) { return tuple_of(l.weight); }, "(float, float, float): colour.")
         .def_readonly("rotation", &GgxLobe::rotation, "Radians about the normal.")
+        .def_property_readonly("is_anisotropic", &GgxLobe::is_anisotropic, "Whether the two alphas differ.")
+        .def_property_readonly("has_fresnel", &GgxLobe::has_fresnel, "Whether r0 is not f90 anywhere.")
         .def("__repr__", [](const GgxLobe& l) { return repr(l); });
 }
 

@@ -50,8 +50,3 @@ def make_lobe(description: dict[str, Any]) -> Lobe:
 def grazing_exponent(lobe: Lobe) -> float:
     """Power of cosines in the lobe, 0 of models that have none."""
     return lobe.alpha if isinstance(lobe, KurtLobe) else 0.0
-
-
-def has_fresnel(lobe: Lobe) -> bool:
-    """Whether the reflectance depends on the angle."""
-    return lobe.has_fresnel if isinstance(lobe, KurtLobe) else lobe.r0 != lobe.f90

@@ -141,7 +141,7 @@ def frame_measure(
         _ = data.color
         wall, cpu = 1e3 * (time.perf_counter() - began), 1e3 * (time.process_time() - cpu_began)
         times = pass_times(data.report)
-        shade = sum(value for name, value in times.items() if name.startswith("shade"))
+        shade = sum(one["milliseconds"] for one in data.report["passes"] if one["kind"] == "shade")
         fixed = {name: times.get(name, 0.0) for name in ("surface", "tiles", "read back")}
         row = {"wall": wall, "shade": shade, **fixed, "rest": wall - shade}
         return row | ({CPU: cpu} if device.is_software else {})

@@ -22,6 +22,17 @@ def lookup_error(device, brightest):
     return 0.0 if is_exact else HARDWARE_WEIGHTS * float(brightest)
 
 
+def compare_radiance(got, expected, limit, share_beyond, factor_beyond):
+    """Few points differ by over `limit` of their or the mean radiance, none by `factor_beyond` limits."""
+    assert np.isfinite(got).all()
+    error = np.abs(got - expected).max(axis=-1) / np.maximum(expected.max(axis=-1), expected.mean())
+    worst, beyond = int(np.argmax(error)), int(np.sum(error > limit))
+    assert error[worst] <= factor_beyond * limit and beyond <= share_beyond * len(error), (
+        f"point {worst}: got {got[worst]}, expected {expected[worst]}; {beyond} of {len(error)} "
+        f"points differ by more than {limit} of the mean radiance"
+    )
+
+
 def directions(array):
     """Return the array as `burnish.shade` takes it."""
     return np.ascontiguousarray(array, np.float32)

@@ -48,8 +48,7 @@ glm::dvec2 integrate_radius(glm::dvec3 omega_o, glm::dvec2 p, double alpha, doub
         const double length = std::sqrt(length2);
         const double value =
             nodes.weight[k] * last * std::exp(-s * s) * s * length * power(cos_i, 1.0 - alpha);
-        const double back = std::clamp(1.0 - o_p / length, 0.0, 1.0);
-        sum += glm::dvec2(value, value * back * back * back * back * back);
+        sum += value * glm::dvec2(1.0, schlick_weight(o_p / length));
     }
     return sum / PI;
 }

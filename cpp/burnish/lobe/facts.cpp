@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "burnish/check.h"
+
 namespace burnish {
 namespace {
 
@@ -11,6 +13,15 @@ float mean(glm::vec3 v) {
 }
 
 } // namespace
+
+void validate_shared(const std::string& prefix, glm::vec2 roughness, glm::vec3 r0, glm::vec3 weight,
+                     float rotation) {
+    require_range(prefix + "roughness", roughness.x, MIN_LOBE_ROUGHNESS, 1.0f);
+    require_range(prefix + "roughness", roughness.y, MIN_LOBE_ROUGHNESS, 1.0f);
+    require_unit(prefix + "r0", r0);
+    require_non_negative(prefix + "weight", weight);
+    require_finite(prefix + "rotation", rotation);
+}
 
 void set_fresnel(LobeFacts& facts, glm::vec3 weight, glm::vec3 r0, glm::vec3 f90) {
     facts.has_fresnel = r0 != f90;

@@ -1,8 +1,10 @@
 // The engine asks this of a lobe; each model answers for itself in its own file.
 #pragma once
 
+#include <algorithm>
 #include <compare>
 #include <cstdint>
+#include <string>
 
 #include <glm/glm.hpp>
 
@@ -15,8 +17,8 @@ namespace burnish {
 /// float32.
 constexpr float MIN_LOBE_ROUGHNESS = 1e-6f;
 
-/// Of a lobe in its plane, with r in units of its widths: exp(-r^2)/pi, or Student's (1 + r^2)^-2/pi, which
-/// has a tail.
+/// A lobe has this density in its plane, r in units of its widths: exp(-r^2)/pi, or Student's (1 +
+/// r^2)^-2/pi, which has a tail.
 enum class Density { gaussian, student };
 
 /// A place in a lobe's plane reflects this.
@@ -25,6 +27,12 @@ struct LobePoint {
     double base;        ///< f cos_i without Fresnel over density and stretch; 0 where nothing is reflected
     double schlick;     ///< (1 - o.h)^5
 };
+
+/// (1 - u)^5, the part of Schlick's Fresnel that grows toward grazing; u = o.h.
+inline double schlick_weight(double u) {
+    const double rest = std::clamp(1.0 - u, 0.0, 1.0), rest2 = rest * rest;
+    return rest2 * rest2 * rest;
+}
 
 struct LobeModel;
 
@@ -74,6 +82,10 @@ struct LobeFacts {
 
     glm::vec2 width() const { return {shape.width_x, shape.width_y}; }
 };
+
+/// Checks what every model has; throws std::invalid_argument, naming field, range and value.
+void validate_shared(const std::string& prefix, glm::vec2 roughness, glm::vec3 r0, glm::vec3 weight,
+                     float rotation);
 
 /// Weighs directions by the reflectances along the normal and along the surface of all channels.
 void set_fresnel(LobeFacts& facts, glm::vec3 weight, glm::vec3 r0, glm::vec3 f90);

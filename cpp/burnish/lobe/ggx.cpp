@@ -12,7 +12,7 @@ namespace {
 
 constexpr double PI = std::numbers::pi;
 constexpr double LEAST_COS = 1e-4;
-/// Of a normal of the stretched hemisphere: its half-vector has a slope.
+/// A normal of the stretched hemisphere is at least so high: its half-vector has a slope.
 constexpr double LEAST_HEIGHT = 1e-9;
 constexpr double LEAST_COS_O = 1e-6; ///< of albedos
 constexpr int RADII = 24;
@@ -65,8 +65,7 @@ LobePoint point(const LobeShape& shape, const Disc& disc, glm::dvec3 omega_o, gl
     if (omega_i.z <= 0.0 || o_h <= 0.0) return {omega_i, 0.0, 0.0};
     const double cos_o = std::max(omega_o.z, LEAST_COS), a_o = projected_width(shape, omega_o);
     const double a_i = projected_width(shape, omega_i);
-    const double rest = std::clamp(1.0 - o_h, 0.0, 1.0), rest2 = rest * rest;
-    return {omega_i, omega_i.z * (a_o + cos_o) / (a_i * cos_o + a_o * omega_i.z), rest2 * rest2 * rest};
+    return {omega_i, omega_i.z * (a_o + cos_o) / (a_i * cos_o + a_o * omega_i.z), schlick_weight(o_h)};
 }
 
 LobePoint at(const LobeShape& shape, glm::dvec3 omega_o, glm::dvec2 p) {
@@ -131,8 +130,7 @@ glm::dvec2 albedo(const LobeShape& shape, glm::dvec3 omega_o) {
                     2.0 * omega_i.z / (omega_o.z * projected_width(shape, omega_i) + omega_i.z * a_o);
                 // dv/2 = root droot.
                 const double value = azimuths.weight[j] * radii.weight[k] * last * root * visible * og;
-                const double rest = std::clamp(1.0 - og / std::sqrt(length2), 0.0, 1.0), rest2 = rest * rest;
-                sum += value * glm::dvec2(1.0, rest2 * rest2 * rest);
+                sum += value * glm::dvec2(1.0, schlick_weight(og / std::sqrt(length2)));
             }
         }
     }
@@ -155,18 +153,14 @@ constexpr LobeModel GGX = {
 } // namespace
 
 void validate(const GgxLobe& lobe, const std::string& prefix) {
-    require_range(prefix + "roughness", lobe.roughness.x, MIN_LOBE_ROUGHNESS, 1.0f);
-    require_range(prefix + "roughness", lobe.roughness.y, MIN_LOBE_ROUGHNESS, 1.0f);
-    require_unit(prefix + "r0", lobe.r0);
+    validate_shared(prefix, lobe.roughness, lobe.r0, lobe.weight, lobe.rotation);
     require_unit(prefix + "f90", lobe.f90);
-    require_non_negative(prefix + "weight", lobe.weight);
-    require_finite(prefix + "rotation", lobe.rotation);
 }
 
 LobeFacts facts(const GgxLobe& lobe) {
     LobeFacts facts;
     facts.shape = {.model = &GGX, .width_x = lobe.roughness.x, .width_y = lobe.roughness.y};
-    facts.is_brushed = lobe.roughness.x != lobe.roughness.y;
+    facts.is_brushed = lobe.is_anisotropic();
     set_fresnel(facts, lobe.weight, lobe.r0, lobe.f90);
     return facts;
 }

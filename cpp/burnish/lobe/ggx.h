@@ -17,6 +17,9 @@ struct GgxLobe {
     glm::vec3 f90{1.0f};       ///< reflectance along the surface, in [0, 1]
     glm::vec3 weight{1.0f};    ///< colour, >= 0
     float rotation = 0.0f;     ///< radians, turns the tangent counter-clockwise about the normal
+
+    bool is_anisotropic() const { return roughness.x != roughness.y; }
+    bool has_fresnel() const { return r0 != f90; }
 };
 
 /// Throws std::invalid_argument, naming field, range and value; `prefix` goes before the field's name.

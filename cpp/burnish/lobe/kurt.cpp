@@ -23,8 +23,7 @@ LobePoint at(const LobeShape& shape, glm::dvec3 omega_o, glm::dvec2 p) {
     const double cos_power = shape.alpha == 0.0f   ? omega_i.z
                              : shape.alpha == 0.5f ? std::sqrt(omega_i.z)
                                                    : std::pow(omega_i.z, 1.0 - shape.alpha);
-    const double rest = std::clamp(1.0 - og / length, 0.0, 1.0), rest2 = rest * rest;
-    return {omega_i, cos_power * length, rest2 * rest2 * rest};
+    return {omega_i, cos_power * length, schlick_weight(og / length)};
 }
 
 /// In the basis of tangents in the plane of o and h and across it the reflection moves by 2 dh and 2 (o.h) dh
@@ -75,12 +74,8 @@ constexpr LobeModel KURT = {
 } // namespace
 
 void validate(const KurtLobe& lobe, const std::string& prefix) {
-    require_range(prefix + "roughness", lobe.roughness.x, MIN_LOBE_ROUGHNESS, 1.0f);
-    require_range(prefix + "roughness", lobe.roughness.y, MIN_LOBE_ROUGHNESS, 1.0f);
-    require_unit(prefix + "r0", lobe.r0);
+    validate_shared(prefix, lobe.roughness, lobe.r0, lobe.weight, lobe.rotation);
     require_range(prefix + "alpha", lobe.alpha, 0.0f, 1.0f);
-    require_non_negative(prefix + "weight", lobe.weight);
-    require_finite(prefix + "rotation", lobe.rotation);
 }
 
 LobeFacts facts(const KurtLobe& lobe) {

@@ -48,7 +48,7 @@ Quadrature<count> graded() {
     return result;
 }
 
-/// Where half-vectors (s p, 1) mirror a view to the horizon: the one positive root s of
+/// Half-vectors (s p, 1) mirror a view to the horizon at this s, the one positive root of
 /// o_z a s^2 - 2 b s = o_z, a = |p|^2, b = o.p.
 inline double horizon_radius(glm::dvec3 omega_o, glm::dvec2 p) {
     const double a = glm::dot(p, p), b = omega_o.x * p.x + omega_o.y * p.y;

@@ -36,7 +36,7 @@ struct PassLine {
     std::string name() const;
 };
 
-/// What a plan calls for, in order.
+/// A plan calls for these, in order.
 std::vector<PassLine> passes_of(const Plan& plan);
 
 } // namespace burnish

@@ -44,8 +44,8 @@ struct EffectLine {
     std::string reason;
 };
 
-/// Where a class's samples come from: a buffer; a buffer in units of a varying roughness; mixtures by the
-/// lobe's aspect, placed at every point, or by the view, placed for the material; the one lookup of a
+/// A class has its samples from one of these: a buffer; a buffer in units of a varying roughness; mixtures by
+/// the lobe's aspect, placed at every point, or by the view, placed for the material; the one lookup of a
 /// prefiltered map.
 enum class TableForm { none, buffer, scaled, matched, matched_by_view, prefiltered };
 

@@ -21,7 +21,7 @@ public:
         : device_(std::move(device)), picture_(picture), times_(times) {}
 
     uint32_t picture() const { return picture_; } ///< counted from 0
-    /// What is recorded runs together, up to the next `submit`.
+    /// Commands that are recorded here run together, up to the next `submit`.
     vulkan::Commands& commands();
     /// Runs what was recorded, waits for it and adds its times.
     void submit();

@@ -202,7 +202,7 @@ void Renderer::draw_picture(FrameWork& work, glm::vec2 offset, uint32_t picture)
     for (const Pass& pass : work.passes)
         pass.run(run);
     run.submit();
-    // Of all pictures the first is the nearest to the pixels' centres; later ones overwrite it.
+    // The first picture is the nearest to the pixels' centres; later ones overwrite it.
     const bool is_copied = work.plan.settings.spp > 1 || !frame.targets->radiance.is_host_memory();
     if (picture == 0 && is_copied) frame.read_surface();
 }

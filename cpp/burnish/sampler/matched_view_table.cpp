@@ -99,7 +99,7 @@ class Row {
 public:
     Row(const MatchedLobe& lobe, const WeightedLobe& weighted, MixtureTable table, glm::vec2 drift,
         glm::dvec2 square)
-        : lobe_(lobe), shape_(lobe.shape), table_(table), points_(points_of(lobe.shape)),
+        : shape_(lobe.shape), face_size_(lobe.face_size), table_(table), points_(points_of(lobe.shape)),
           lit_exponent_(shape_.model->lit_exponent(shape_)) {
         const SquareView view = view_of_square(square);
         omega_o_ = view.omega_o;
@@ -131,7 +131,7 @@ public:
         // The cosine that the kernel puts back in.
         const double lit = (1.0 + glm::dot(h, h)) * mean.direction.z / length;
         const double weight = mixture.w * mean.base / std::pow(std::max(lit, LEAST_LIT), lit_exponent_);
-        return {glm::vec4(h - offset_, weight, spherical_level(variance, lobe_.face_size)),
+        return {glm::vec4(h - offset_, weight, spherical_level(variance, face_size_)),
                 float(mean.schlick / mean.base)};
     }
 
@@ -167,8 +167,8 @@ private:
         return mean;
     }
 
-    MatchedLobe lobe_;
     LobeShape shape_;
+    uint32_t face_size_;
     MixtureTable table_;
     glm::dvec3 omega_o_;
     std::span<const Point> points_;

@@ -18,8 +18,8 @@ namespace burnish {
 ///   exact, importance:  K (o.h)/hz r^3        published:  K sqrt((ox^2+oz^2)(oy^2+oz^2)) r / ((o.h)/hz)
 /// with r = |i|/|i|_inf. (o.h)/hz is what the kernel has at hand, so K holds the power of hz.
 ///
-/// Of models whose half-vectors depend on the view: a place of the lobe's plane; weight; a quarter of the
-/// face's texels times the area that it stands for there.
+/// Models whose half-vectors depend on the view have other entries: a place of the lobe's plane; weight; a
+/// quarter of the face's texels times the area that it stands for there.
 ///
 /// A scaled table serves every roughness of a textured material: slopes are in units of roughness, the weight
 /// is q and the kernel applies D's other factors itself.

@@ -27,7 +27,7 @@ from numpy.typing import NDArray
 from burnish import _core
 from burnish.advice.contrast import Spectrum
 from burnish.advice.families import FAMILIES
-from burnish.lobes import Lobe, grazing_exponent, has_fresnel
+from burnish.lobes import Lobe, grazing_exponent
 
 Float64 = NDArray[np.float64]
 
@@ -80,7 +80,7 @@ def traits_of_lobe(lobe: Lobe) -> LobeTraits:
         Any. The model was fitted to Kurt's lobes; others have the errors of that of their widths, until a
         probe puts them right.
     """
-    return LobeTraits(lobe.roughness, has_fresnel(lobe), grazing_exponent(lobe))
+    return LobeTraits(lobe.roughness, lobe.has_fresnel, grazing_exponent(lobe))
 
 
 @dataclass(frozen=True)

@@ -70,12 +70,13 @@ def learn_frame_cost(
     covered = pixels * float(np.mean(survey.alpha > 0))
     small_fixed = sum(one["milliseconds"] for one in report.passes if one["kind"] not in (SHADE_KIND, *ONCE))
     fixed_ms = small_fixed + 1e-6 * costs.fixed_ns() * max(0, pixels - small_pixels)
-    times = {one["name"]: one["milliseconds"] for one in report.passes}
+    # One pass for each class, in their order.
+    times = [one["milliseconds"] for one in report.passes if one["kind"] == SHADE_KIND]
     shares = []
-    for k, one in enumerate(report.classes):
+    for one, shade_ms in zip(report.classes, times, strict=True):
         traits = traits_of_class(one["values"])
         rate = costs.shade_ns(family, count, traits)
-        shares.append((traits, times.get(f"{SHADE_KIND} {k}", 0.0) / rate if rate > 0 else 0.0))
+        shares.append((traits, shade_ms / rate if rate > 0 else 0.0))
     total = sum(share for _, share in shares)
     shaded = tuple((traits, covered * share / total) for traits, share in shares if total > 0)
     return FrameCost(costs, fixed_ms, shaded)

@@ -31,16 +31,15 @@ from burnish.oracle.matched_table import (
 )
 from burnish.oracle.spherical_pyramid import PREFILTER_SAMPLES
 from burnish.tables.fit_objective import (
-    ASPECTS,
     SHORT_MOMENT,
     Mixtures,
     copies,
     fit,
     quantiser,
     short_share,
-    student_target,
 )
 from burnish.tables.fit_selection import Training, make_training, score
+from burnish.tables.fit_target import ASPECTS, student_target
 
 Float64 = NDArray[np.float64]
 

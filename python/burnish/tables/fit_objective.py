@@ -8,10 +8,9 @@ least difference from it is the best mixture. Along longer lobes that minimum ha
 between, and light in a gap is missed: there the difference is measured at several scales, blurred by as many
 Gaussians, and the mixture may be wider than the lobe.
 
-The lobe is a sum of Gaussians itself (`Target`), so that all products are in closed form.
+The lobe is a sum of Gaussians itself (`fit_target`), so that all products are in closed form.
 """
 
-import math
 from dataclasses import dataclass
 from typing import Any
 
@@ -19,20 +18,14 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.optimize import minimize
 
-from burnish.oracle.matched_table import ASPECT_COUNT, LARGEST_ASPECT
+from burnish.tables.fit_target import ASPECTS, GAUSSIAN, Target
 
 Float64 = NDArray[np.float64]
 
-#: Aspects of the lobe that have a row of the table.
-ASPECTS: Float64 = LARGEST_ASPECT ** (np.arange(ASPECT_COUNT) / (ASPECT_COUNT - 1))
 #: Least width of a sample, in units of the minor axis.
 LEAST_WIDTH = 0.02
-# Greatest one where samples fill the lobe; along longer ones it is a multiple of rho/n.
-_MOST_WIDTH, _MOST_WIDTH_LONG = 1.2, 2.0
-# Of a lobe with a tail, which one or two wide samples stand for.
-_MOST_WIDTH_STUDENT = 12.0
-# Weight of their variances being equal on short lobes: what differs would turn with the plane of view.
-_STUDENT_ROUNDNESS = 0.3
+# Greatest one along lobes that samples do not fill, a multiple of rho/n.
+_MOST_WIDTH_LONG = 2.0
 # Deviations of the blurs, in minor axes; the first compares the mixture itself.
 _SCALES = (0.0, 0.5, 1.0, 2.0, 4.0, 8.0, 16.0, 32.0)
 # Weight of the unblurred difference against the blurred ones', along long lobes and, added, on short ones.
@@ -49,47 +42,6 @@ _MOST_WEIGHT = 4.0
 _SMOOTHNESS = 3e-3
 # A trilinear lookup's error is correlated over this share of the variance of the lookups.
 _CORRELATION = 0.3
-
-
-@dataclass(frozen=True)
-class Target:
-    """A lobe sum_a c_a N(0, t_a/2 diag(rho^2, 1)), its minor axis the unit."""
-
-    share: Float64  # c, of sum 1
-    spread: Float64  # t
-    has_moments: bool  # whether the mixture keeps its variances
-    most_width: float  # of a sample where samples fill the lobe
-    roundness: float = 0.0  # weight of variances being equal on short lobes, where they are not kept
-
-    def squares(self, sigma: float) -> Float64:
-        """Integrals of the squares of the lobes of all ASPECTS, blurred by a deviation."""
-        spread = 0.5 * (self.spread[:, None] + self.spread)[..., None]
-        areas = (spread * ASPECTS**2 + 2 * sigma**2) * (spread + 2 * sigma**2)
-        shares = (self.share[:, None] * self.share)[..., None]
-        result: Float64 = np.sum(shares / (2 * np.pi * np.sqrt(areas)), axis=(0, 1))
-        return result
-
-
-#: exp(-r^2)/pi.
-GAUSSIAN = Target(np.ones(1), np.ones(1), has_moments=True, most_width=_MOST_WIDTH)
-
-
-def student_target(window: float) -> Target:
-    """(1 + r^2)^-2 exp(-r^2/(2 R^2)), R = `window`, infinite for none.
-
-    (1 + r^2)^-2/pi = int_0^inf u exp(-u) (u/pi) exp(-u r^2) du/u: Gaussians of variance 1/(2u), on a grid
-    even in ln u. The window adds 1/(2 R^2) to each u. Variances are infinite without it.
-    """
-    u = np.exp(np.linspace(math.log(1e-3), math.log(14.0), 15))
-    windowed = u + 0.5 / window**2
-    share = u * np.exp(-u) * u / windowed
-    return Target(
-        share / np.sum(share),
-        1 / windowed,
-        has_moments=False,
-        most_width=_MOST_WIDTH_STUDENT,
-        roundness=_STUDENT_ROUNDNESS,
-    )
 
 
 @dataclass(frozen=True)
@@ -295,7 +247,7 @@ def quantiser(samples: int, aspect: float, seed: int, target: Target = GAUSSIAN)
     # A little off the axis: on it the gradient across is 0 by symmetry.
     centres = centres + 1e-3 * rng.normal(size=centres.shape) * (np.arange(half) >= samples % 2)[:, None]
     share = samples * size / len(points) / copies(samples)
-    log_s = np.log(np.clip(np.sqrt(0.5 * spread / size), 2 * LEAST_WIDTH, 0.9 * _MOST_WIDTH))
+    log_s = np.log(np.clip(np.sqrt(0.5 * spread / size), 2 * LEAST_WIDTH, 0.9 * GAUSSIAN.most_width))
     rows = np.ones((len(ASPECTS), 1))
     return Mixtures(samples, centres[:, 0] / aspect * rows, centres[:, 1] * rows, log_s * rows, share * rows)
 

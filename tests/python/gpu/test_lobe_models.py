@@ -15,7 +15,7 @@ from burnish.oracle.matched import MatchedMap
 from burnish.oracle.shading import shade as oracle_shade
 from burnish.oracle.shading import shade_matched_lobes
 from burnish.oracle.sun_split import split_suns
-from engine_support import lookup_error, random_points, views_about_z
+from engine_support import compare_radiance, lookup_error, random_points, views_about_z
 
 MODELS = {
     "Kurt": {
@@ -44,14 +44,8 @@ def points():
 
 
 def compare(device, got, expected):
-    assert np.isfinite(got).all()
-    error = np.abs(got - expected).max(axis=-1) / np.maximum(expected.max(axis=-1), expected.mean())
     limit = LIMIT if lookup_error(device, 1) == 0 else LIMIT_HARDWARE
-    worst, beyond = int(np.argmax(error)), int(np.sum(error > limit))
-    assert error[worst] <= FACTOR_BEYOND * limit and beyond <= SHARE_BEYOND * len(error), (
-        f"point {worst}: got {got[worst]}, expected {expected[worst]}; {beyond} of {len(error)} "
-        f"points differ by more than {limit}"
-    )
+    compare_radiance(got, expected, limit, SHARE_BEYOND, FACTOR_BEYOND)
 
 
 def shade(device, environment, lobes, sampler, points):

@@ -15,7 +15,7 @@ from burnish.oracle.matched import MatchedMap
 from burnish.oracle.shading import shade_matched_lobes
 from burnish.oracle.spherical_pyramid import build_spherical_pyramid
 from burnish.oracle.sun_split import split_suns
-from engine_support import lookup_error, random_points, smooth_environment_faces, unit
+from engine_support import compare_radiance, lookup_error, random_points, smooth_environment_faces, unit
 
 # Relative to a point's radiance, or the mean over the points where that is more. The albedo's table is that
 # exact. Lookups at the edge of a disc a thousand times brighter than its surroundings turn the rounding of a
@@ -51,14 +51,8 @@ def read_levels(device, environment):
 
 
 def compare(device, got, expected):
-    assert np.isfinite(got).all()
-    error = np.abs(got - expected).max(axis=-1) / np.maximum(expected.max(axis=-1), expected.mean())
     limit = LIMIT if lookup_error(device, 1) == 0 else LIMIT_HARDWARE
-    worst, beyond = int(np.argmax(error)), int(np.sum(error > limit))
-    assert error[worst] <= FACTOR_BEYOND * limit and beyond <= SHARE_BEYOND * len(error), (
-        f"point {worst}: got {got[worst]}, expected {expected[worst]}; {beyond} of {len(error)} "
-        f"points differ by more than {limit} of the mean radiance"
-    )
+    compare_radiance(got, expected, limit, SHARE_BEYOND, FACTOR_BEYOND)
 
 
 @pytest.mark.parametrize("size", [1, 2, 4, 64])

@@ -8,15 +8,13 @@ pytest.importorskip("scipy", reason="the fit needs the extra `fit`")
 from burnish.oracle.matched_table import load_student_tables, mixture_at
 from burnish.tables import fit_objective
 from burnish.tables.fit_objective import (
-    ASPECTS,
-    GAUSSIAN,
     copies,
     loss_and_gradient,
     quantiser,
     scale_weights,
-    student_target,
     unpack,
 )
+from burnish.tables.fit_target import ASPECTS, GAUSSIAN, student_target
 
 TARGETS = {"gaussian": GAUSSIAN, "student": student_target(np.inf), "in a window": student_target(2.7)}
 
