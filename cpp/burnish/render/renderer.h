@@ -43,7 +43,7 @@ struct ShadePoints {
 
 struct RendererSettings {
     std::optional<MapLookup> lookup;                  ///< none for what is best on the device
-    std::optional<LookupMeasurement> measured;        ///< that decides which is best on a CPU device
+    std::optional<LookupMeasurement> measured{};      ///< that decides which is best on a CPU device
     size_t pipeline_budget = DEFAULT_PIPELINE_BUDGET; ///< pipelines kept for later pictures, 1 or more
 };
 

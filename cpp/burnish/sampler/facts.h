@@ -34,11 +34,11 @@ enum class MapLevels {
 };
 
 struct SamplerFacts {
-    std::string text;                   ///< "regular:14", "matched:14:diffuse=harmonics": for reports
-    std::optional<DiffuseForm> diffuse; ///< none of the truth, which takes no such form
+    std::string text{};                   ///< "regular:14", "matched:14:diffuse=harmonics": for reports
+    std::optional<DiffuseForm> diffuse{}; ///< none of the truth, which takes no such form
     Placing placing = Placing::none;
     MapLevels levels = MapLevels::pyramid;
-    std::string levels_reason;   ///< why a plan makes them; empty of the pyramid alone
+    std::string levels_reason{}; ///< why a plan makes them; empty of the pyramid alone
     uint32_t samples = 1;        ///< lookups of a lobe, as asked for
     bool is_truth = false;       ///< exact within a standard error that it tells
     bool takes_suns_out = false; ///< suns are split off the map and shaded directly

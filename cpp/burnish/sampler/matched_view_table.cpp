@@ -110,7 +110,8 @@ public:
         const glm::dvec2 u = steepness > 1e-7 ? change / steepness : glm::dvec2(0.0, 1.0);
         steepest_ = u.x * narrow + u.y * place_.axis2;
         offset_ = glm::dvec2(drift) * o;
-        const double less = shared::MATCHED_NARROW_LESS - shared::MATCHED_NARROW_LESS_OF_ONE / lobe.samples;
+        const double less =
+            shared::MATCHED_NARROW_LESS - shared::MATCHED_NARROW_LESS_OF_ONE / float(lobe.samples);
         const double fall = std::exp(-shared::MATCHED_NARROW_DECAY * m.x * m.y);
         variance_share_ = shared::MATCHED_VARIANCE_SHARE * (1.0 - less * fall / place_.rho);
         area_ = std::abs(place_.axis1.x * place_.axis2.y - place_.axis1.y * place_.axis2.x);
