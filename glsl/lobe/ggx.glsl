@@ -28,37 +28,69 @@ float ggx_rest(vec3 omega_i, vec3 omega_o, vec2 a) {
     return 0.5 * omega_i.z / (co * projected_width(omega_i, a) + omega_i.z * projected_width(omega_o, a));
 }
 
+// The unit disc of normals that a view sees of a hemisphere that is stretched by alpha (Heitz 2018).
+struct GgxDisc {
+    vec3 view;     // stretched, unit
+    vec2 level;    // unit, across the plane of view
+    vec3 other;    // view x level
+    float c, rest; // the disc is squeezed to c, rest = 1 - c
+};
+
+GgxDisc ggx_disc(vec3 omega_o, vec2 a) {
+    GgxDisc disc;
+    disc.view = normalize(vec3(a * omega_o.xy, omega_o.z));
+    float sine = length(disc.view.xy);
+    // Seen along the normal the disc is the same whichever way it is turned.
+    disc.level = sine > 1e-7 ? vec2(-disc.view.y, disc.view.x) / sine : vec2(0.0, 1.0);
+    disc.other = vec3(-disc.view.z * disc.level.y, disc.view.z * disc.level.x, sine > 1e-7 ? sine : 0.0);
+    disc.c = 0.5 + 0.5 * disc.view.z;
+    disc.rest = 0.5 * sine * sine / (1.0 + disc.view.z);
+    return disc;
+}
+
 // The half-vector of a place of the lobe's plane, of density (1 + |p|^2)^-2/pi: the point p/(1 + |p|^2)^1/2
-// of the unit disc of normals, squeezed to what the view sees of a hemisphere that is stretched by alpha
-// (Heitz 2018).
+// of the disc, squeezed to what is seen.
 struct GgxNormal {
     vec3 h;
     float q; // as in ggx_d
 };
 
 GgxNormal ggx_normal(vec3 omega_o, vec2 p, vec2 a) {
-    vec3 view = normalize(vec3(a * omega_o.xy, omega_o.z));
-    float sine = length(view.xy);
-    // Seen along the normal the disc is the same whichever way it is turned.
-    vec2 level = sine > 1e-7 ? vec2(-view.y, view.x) / sine : vec2(0.0, 1.0);
-    vec2 turned = vec2(dot(level, p), level.x * p.y - level.y * p.x);
-    float c = 0.5 + 0.5 * view.z, rest = 0.5 * sine * sine / (1.0 + view.z); // 1 - c
+    GgxDisc disc = ggx_disc(omega_o, a);
+    vec2 turned = vec2(dot(disc.level, p), disc.level.x * p.y - disc.level.y * p.x);
     float k = inversesqrt(1.0 + dot(p, p));
     float x = k * turned.x, y = k * turned.y;
     float edge = k * sqrt(1.0 + turned.y * turned.y); // of the disc: (1 - x^2)^1/2
     // (edge - y) (edge + y) = k^2: the smaller one from the larger.
     float larger = edge + abs(y), smaller = k * k / larger;
     float above = y > 0.0 ? smaller : larger, below = y > 0.0 ? larger : smaller;
-    float squeezed = rest * edge + c * y;
-    float z = sqrt(c * above * (2.0 * rest * edge + c * below));
-    // other = view x level.
-    vec3 other = vec3(-view.z * level.y, view.z * level.x, sine > 1e-7 ? sine : 0.0);
-    vec3 m = x * vec3(level, 0.0) + squeezed * other + z * view;
+    float squeezed = disc.rest * edge + disc.c * y;
+    float z = sqrt(disc.c * above * (2.0 * disc.rest * edge + disc.c * below));
+    vec3 m = x * vec3(disc.level, 0.0) + squeezed * disc.other + z * disc.view;
     vec3 g = vec3(a * m.xy, max(m.z, 1e-9));
     GgxNormal normal;
     normal.q = 1.0 / dot(g, g);
     normal.h = g * sqrt(normal.q);
     return normal;
+}
+
+// Derivative of the direction at the middle of the plane, whose half-vector is A (rest other + z view) but
+// for its length, A = diag(ax, ay, 1): on the disc it moves by A level and c A (other - rest/z view).
+mat2x3 ggx_linear_map(vec3 omega_o, vec2 a) {
+    GgxDisc disc = ggx_disc(omega_o, a);
+    vec3 squash = vec3(a, 1.0);
+    float z = sqrt(1.0 - disc.rest * disc.rest); // c >= 1/2
+    vec3 g = squash * (disc.rest * disc.other + z * disc.view);
+    float scale = inversesqrt(dot(g, g));
+    vec3 h = scale * g;
+    vec3 first = scale * squash * vec3(disc.level, 0.0);
+    vec3 second = scale * disc.c * squash * (disc.other - (disc.rest / z) * disc.view);
+    first -= dot(h, first) * h;
+    second -= dot(h, second) * h;
+    float oh = dot(omega_o, h);
+    first = 2.0 * (dot(omega_o, first) * h + oh * first);
+    second = 2.0 * (dot(omega_o, second) * h + oh * second);
+    return mat2x3(disc.level.x * first - disc.level.y * second, disc.level.y * first + disc.level.x * second);
 }
 
 // Half-vector of density D G_1(o) (o.h)/co, from x in the unit square.

@@ -45,6 +45,9 @@ bool has_fixed_half_vectors(uint model) { return model == MODEL_KURT; }
 // A place of the plane of the other models.
 LobePoint lobe_at(LobeShape l, vec3 omega_o, vec2 p) { return ggx_at(omega_o, p, l.width); }
 
+// Derivative of the direction at the middle of that plane, for steps along its axes.
+mat2x3 lobe_linear_map(LobeShape l, vec3 omega_o) { return ggx_linear_map(omega_o, l.width); }
+
 // D cos_h^4 under a light of some extent.
 float lobe_widened_d(LobeShape l, Widened w) {
     if (l.model == MODEL_GGX) return ggx_widened_d(w, l.width);

@@ -77,6 +77,20 @@ float variance_share(vec2 roughness, float rho) {
            (1.0 - less * exp(-MATCHED_NARROW_DECAY * roughness.x * roughness.y) / rho);
 }
 
+// F = x + y (1 - o.h)^5 over all channels. Where nothing is reflected, some direction must still come out.
+vec2 grey_fresnel(vec3 specular, vec3 grazing) {
+    vec2 fresnel = vec2(dot(specular, vec3(1.0)), dot(grazing, vec3(1.0)));
+    fresnel.x = max(fresnel.x, 1e-3 * fresnel.y);
+    return fresnel.x > 1e-9 ? fresnel / (fresnel.x + fresnel.y) : vec2(1.0, 0.0);
+}
+
+// The row of a lobe's aspect.
+int mixture_row(float rho) {
+    float node = log2(rho) * (float(MATCHED_ROWS - 1u) / MATCHED_LOG2_LARGEST_RHO) + 0.5;
+    return int((SAMPLE_COUNT + 1u) / 2u) *
+           int(node < float(MATCHED_ROWS - 1u) ? node : float(MATCHED_ROWS - 1u));
+}
+
 MixtureView view_mixture(LobeView v, uint table_begin, float level_share, vec3 specular, vec3 grazing) {
     LobeAxes axes = lobe_axes(v.local_o, v.roughness);
 
@@ -97,13 +111,8 @@ MixtureView view_mixture(LobeView v, uint table_begin, float level_share, vec3 s
     view.linear = variance_share(v.roughness, axes.rho) * axes.minor * axes.minor / axes.foreshortening;
     view.h2 = dot(view.h, view.h);
     view.share = level_share;
-    float node = log2(axes.rho) * (float(MATCHED_ROWS - 1u) / MATCHED_LOG2_LARGEST_RHO) + 0.5;
-    view.row = int(table_begin) + int((SAMPLE_COUNT + 1u) / 2u) *
-                                      int(node < float(MATCHED_ROWS - 1u) ? node : float(MATCHED_ROWS - 1u));
-    // Where nothing is reflected, some direction must still come out.
-    view.fresnel = vec2(dot(specular, vec3(1.0)), dot(grazing, vec3(1.0)));
-    view.fresnel.x = max(view.fresnel.x, 1e-3 * view.fresnel.y);
-    view.fresnel = view.fresnel.x > 1e-9 ? view.fresnel / (view.fresnel.x + view.fresnel.y) : vec2(1.0, 0.0);
+    view.row = int(table_begin) + mixture_row(axes.rho);
+    view.fresnel = grey_fresnel(specular, grazing);
     return view;
 }
 
@@ -130,10 +139,11 @@ float spherical_level(float share) { return share > 1.0 ? 1.0 + 0.5 * log2(share
 
 // `share` is the linear map's, see spherical_level. Half of the spread of what the points reflect, 1 - |M|/G,
 // is the least: it is more where the centre reflects the horizon.
-Lookup finish_component(LobeView v, MixtureView view, Component component, float weight, float share) {
+// `level_share`: what a variance of 1 is.
+Lookup finish_component(LobeView v, float level_share, Component component, float weight, float share) {
     Lookup lookup;
     float spread = 1.0 - length(component.direction) / component.gain;
-    share = max(share, MATCHED_LEAST_SPREAD_SHARE * view.share * spread);
+    share = max(share, MATCHED_LEAST_SPREAD_SHARE * level_share * spread);
     lookup.aim = aim_at_map(component.direction, v.layer, spherical_level(share));
     lookup.weight = weight * component.base;
     lookup.schlick = HAS_FRESNEL ? component.schlick / component.base : 0.0;
@@ -172,7 +182,7 @@ Lookup place_narrow(LobeView v, MixtureView view, Pair pair, vec3 d, float og, v
     vec2 along = share * q;
     component.direction = (along.x + along.y) * (v.frame[2] + d) + (pair.s * (along.x - along.y)) * view.h -
                           component.gain * v.omega_o;
-    return finish_component(v, view, component, pair.weight, pair.variance * og);
+    return finish_component(v, view.share, component, pair.weight, pair.variance * og);
 }
 
 void add_point(LobeView v, MixtureView view, vec3 offset, float share, inout Component component) {
@@ -202,7 +212,7 @@ Lookup place_wide(LobeView v, MixtureView view, Pair pair, vec3 d, float og) {
     add_point(v, view, d + across - along, 5.0 / 24.0, component);
     add_point(v, view, d - across + along, 5.0 / 24.0, component);
     add_point(v, view, d + across + along, 5.0 / 24.0, component);
-    return finish_component(v, view, component, pair.weight, pair.variance * og);
+    return finish_component(v, view.share, component, pair.weight, pair.variance * og);
 }
 
 void place_pair(LobeView v, MixtureView view, vec4 entry, out Lookup one, out Lookup other) {
@@ -232,32 +242,29 @@ void place_pair(LobeView v, MixtureView view, vec4 entry, out Lookup one, out Lo
     other = place_narrow(v, view, pair, -pair.d, v.local_o.z - od, pair.lengths.yx, pair.inverse.yx);
 }
 
-vec4 mixture_entry(MixtureView view, uint which) { return sample_entry(view.row + int(which)); }
-
 // clang-format off
 #define PLACE_PAIR(k, one, other)                                                                            \
-    if (SAMPLE_COUNT / 2u > uint(k)) place_pair(v, view, mixture_entry(view, odd + uint(k)), one, other);
+    if (SAMPLE_COUNT / 2u > uint(k)) place_pair(v, view, sample_entry(view.row + int(odd) + k), one, other);
 #define ADD_PAIR(k, one, other)                                                                              \
     if (SAMPLE_COUNT / 2u > uint(k)) { add_lookup(sums, one); add_lookup(sums, other); }
 #define GATHER_PAIRS(a, b)                                                                                   \
     PLACE_PAIR(a, l0, l1) PLACE_PAIR(b, l2, l3) ADD_PAIR(a, l0, l1) ADD_PAIR(b, l2, l3)
+// All samples of `view`, a MixtureView or a PlaneMixture, at the point `v`.
+#define GATHER_MIXTURE                                                                                       \
+    LobeSums sums = LobeSums(vec3(0.0), vec3(0.0), 0.0, 0.0, 0.0);                                           \
+    Lookup l0, l1, l2, l3;                                                                                   \
+    const uint odd = SAMPLE_COUNT & 1u;                                                                      \
+    if (odd == 1u) {                                                                                         \
+        place_pair(v, view, sample_entry(view.row), l0, l1);                                                 \
+        add_lookup(sums, l0);                                                                                \
+    }                                                                                                        \
+    GATHER_PAIRS(0, 1) GATHER_PAIRS(2, 3) GATHER_PAIRS(4, 5) GATHER_PAIRS(6, 7)                              \
+    GATHER_PAIRS(8, 9) GATHER_PAIRS(10, 11) GATHER_PAIRS(12, 13) GATHER_PAIRS(14, 15)                        \
+    GATHER_PAIRS(16, 17) GATHER_PAIRS(18, 19) GATHER_PAIRS(20, 21) GATHER_PAIRS(22, 23)                      \
+    GATHER_PAIRS(24, 25) GATHER_PAIRS(26, 27) GATHER_PAIRS(28, 29) GATHER_PAIRS(30, 31)                      \
+    return sums;
 // clang-format on
 
-LobeSums gather_matched(LobeView v, MixtureView view) {
-    LobeSums sums = LobeSums(vec3(0.0), vec3(0.0), 0.0, 0.0, 0.0);
-    Lookup l0, l1, l2, l3;
-    const uint odd = SAMPLE_COUNT & 1u;
-    if (odd == 1u) {
-        place_pair(v, view, mixture_entry(view, 0u), l0, l1);
-        add_lookup(sums, l0);
-    }
-    // clang-format off
-    GATHER_PAIRS(0, 1) GATHER_PAIRS(2, 3) GATHER_PAIRS(4, 5) GATHER_PAIRS(6, 7)
-    GATHER_PAIRS(8, 9) GATHER_PAIRS(10, 11) GATHER_PAIRS(12, 13) GATHER_PAIRS(14, 15)
-    GATHER_PAIRS(16, 17) GATHER_PAIRS(18, 19) GATHER_PAIRS(20, 21) GATHER_PAIRS(22, 23)
-    GATHER_PAIRS(24, 25) GATHER_PAIRS(26, 27) GATHER_PAIRS(28, 29) GATHER_PAIRS(30, 31)
-    return sums;
-    // clang-format on
-}
+LobeSums gather_matched(LobeView v, MixtureView view) { GATHER_MIXTURE }
 
 #endif

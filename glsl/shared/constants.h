@@ -33,6 +33,18 @@ SHARED_CONST uint MATCHED_NODES = 52u;
 SHARED_CONST uint MATCHED_STUDENT_NODES = 18u; // of lobes with tails
 SHARED_CONST uint MATCHED_ROWS = 1024u;
 SHARED_CONST float MATCHED_LOG2_LARGEST_RHO = 6.6438562f;
+// Mixtures of lobes with tails stand for the density in a window exp(-r^2/(2 R^2)): the wider a lobe the
+// narrower its window, as what is beyond lies below the horizon. Lobes have the first window from none on, the
+// others from a width on; a window leaves a share of the density, and its quotient grows no further than exp
+// of the last.
+SHARED_CONST uint MATCHED_WINDOWS = 3u;
+SHARED_CONST float MATCHED_SECOND_WINDOW_WIDTH = 0.25f;
+SHARED_CONST float MATCHED_SECOND_WINDOW = 2.7f;
+SHARED_CONST float MATCHED_SECOND_WINDOW_SHARE = 0.8406213f;
+SHARED_CONST float MATCHED_THIRD_WINDOW_WIDTH = 0.4f;
+SHARED_CONST float MATCHED_THIRD_WINDOW = 1.4f;
+SHARED_CONST float MATCHED_THIRD_WINDOW_SHARE = 0.6614072f;
+SHARED_CONST float MATCHED_MOST_WINDOW_EXPONENT = 2.5f;
 // Tables of placed samples hold MATCHED_ROWS views of a round lobe; of a brushed one, up to an aspect, a grid
 // of views with so many nodes from the normal to the horizon.
 SHARED_CONST uint MATCHED_VIEW_NODES = 128u;

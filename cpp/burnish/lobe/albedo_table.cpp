@@ -15,8 +15,7 @@ constexpr uint32_t WIDTH_NODES = 33;
 constexpr int RADII = 24;
 constexpr int AZIMUTHS = 16;        ///< in each quarter
 constexpr double LAST_RADIUS = 6.0; ///< q = exp(-36): nothing of the lobe lies beyond
-/// Of tables over all brushed lobes, which have a hundred thousand entries: within 1e-3 for r0 = 1, 3e-3 for
-/// .04.
+/// Of quick albedos.
 constexpr int FEW_RADII = 16;
 constexpr int FEW_AZIMUTHS = 8;
 constexpr double NEAR_RADIUS = 4.0;     ///< q = 1e-7
@@ -82,6 +81,12 @@ glm::dvec3 view_at(double cos_o, glm::dvec2 azimuth) {
     return glm::dvec3(std::sqrt(1.0 - cos_o * cos_o) * azimuth, cos_o);
 }
 
+LobeShape with_width(LobeShape shape, glm::dvec2 width) {
+    shape.width_x = float(width.x);
+    shape.width_y = float(width.y);
+    return shape;
+}
+
 /// The brushed lobe whose slopes have the covariance C/2 in the plane of view (x) and across it.
 struct LobeInView {
     glm::dvec2 roughness; ///< along its axes
@@ -99,8 +104,9 @@ LobeInView lobe_in_view(double c_xx, double c_yy, double c_xy) {
 
 } // namespace
 
-glm::dvec2 directional_albedo(glm::dvec3 omega_o, glm::dvec2 roughness, double alpha) {
-    return integrate<RADII, AZIMUTHS>(omega_o, roughness, alpha, LAST_RADIUS);
+glm::dvec2 directional_albedo(glm::dvec3 omega_o, glm::dvec2 roughness, double alpha, bool is_quick) {
+    return is_quick ? integrate<FEW_RADII, FEW_AZIMUTHS>(omega_o, roughness, alpha, NEAR_RADIUS)
+                    : integrate<RADII, AZIMUTHS>(omega_o, roughness, alpha, LAST_RADIUS);
 }
 
 AlbedoTable build_albedo_table(const LobeShape& shape) {
@@ -119,25 +125,26 @@ AlbedoTable build_albedo_table(const LobeShape& shape) {
         }
         for (uint32_t i = 0; i < ALBEDO_COS_NODES; ++i)
             table.entries[j * ALBEDO_COS_NODES + i] =
-                shape.model->albedo(shape, view_at(square_node(i, ALBEDO_COS_NODES), azimuth));
+                shape.model->albedo(shape, view_at(square_node(i, ALBEDO_COS_NODES), azimuth), false);
     });
     return table;
 }
 
-std::vector<glm::vec2> build_varying_albedo_table(float alpha) {
+std::vector<glm::vec2> build_varying_albedo_table(const LobeShape& shape) {
     using shared::ALBEDO_ROUGHNESS_NODES;
     std::vector<glm::vec2> entries(size_t(ALBEDO_ROUGHNESS_NODES) * ALBEDO_COS_NODES);
     for_each_on_cores(ALBEDO_ROUGHNESS_NODES, true, [&](size_t k) {
         const double m =
             std::max(square_node(uint32_t(k), ALBEDO_ROUGHNESS_NODES), std::sqrt(LEAST_VARIANCE));
         for (uint32_t i = 0; i < ALBEDO_COS_NODES; ++i)
-            entries[k * ALBEDO_COS_NODES + i] = directional_albedo(
-                view_at(square_node(i, ALBEDO_COS_NODES), {1.0, 0.0}), glm::dvec2(m), alpha);
+            entries[k * ALBEDO_COS_NODES + i] =
+                shape.model->albedo(with_width(shape, glm::dvec2(m)),
+                                    view_at(square_node(i, ALBEDO_COS_NODES), {1.0, 0.0}), false);
     });
     return entries;
 }
 
-std::vector<glm::vec2> build_brushed_albedo_table(float alpha) {
+std::vector<glm::vec2> build_brushed_albedo_table(const LobeShape& shape) {
     using namespace shared;
     constexpr size_t row = size_t(ALBEDO_CORRELATION_NODES) * ALBEDO_BRUSHED_COS_NODES;
     std::vector<glm::vec2> entries(ALBEDO_ALONG_NODES * ALBEDO_ACROSS_NODES * row);
@@ -149,9 +156,9 @@ std::vector<glm::vec2> build_brushed_albedo_table(float alpha) {
             const LobeInView lobe =
                 lobe_in_view(along * along, across * across, correlation * along * across);
             for (uint32_t i = 0; i < ALBEDO_BRUSHED_COS_NODES; ++i)
-                entries[k * row + r * ALBEDO_BRUSHED_COS_NODES + i] = integrate<FEW_RADII, FEW_AZIMUTHS>(
-                    view_at(square_node(i, ALBEDO_BRUSHED_COS_NODES), lobe.view), lobe.roughness, alpha,
-                    NEAR_RADIUS);
+                entries[k * row + r * ALBEDO_BRUSHED_COS_NODES + i] =
+                    shape.model->albedo(with_width(shape, lobe.roughness),
+                                        view_at(square_node(i, ALBEDO_BRUSHED_COS_NODES), lobe.view), true);
         }
     });
     return entries;

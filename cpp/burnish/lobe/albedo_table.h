@@ -28,18 +28,19 @@ struct AlbedoTable {
 
 AlbedoTable build_albedo_table(const LobeShape& shape);
 
-/// (E1, Es) of Kurt's round lobes whose roughness varies over a surface, [roughness][cos]: roughness k is
-/// (k/(ALBEDO_ROUGHNESS_NODES-1))^2. Within 3e-3 of E from 3 degrees above the horizon.
-std::vector<glm::vec2> build_varying_albedo_table(float alpha);
+/// (E1, Es) of round lobes like `shape` whose roughness varies over a surface, [roughness][cos]: roughness k
+/// is (k/(ALBEDO_ROUGHNESS_NODES-1))^2. Within 3e-3 of E from 3 degrees above the horizon.
+std::vector<glm::vec2> build_varying_albedo_table(const LobeShape& shape);
 
 /// The same of brushed lobes, [along][across][correlation][cos]. Slopes have the covariance C/2; with x in
 /// the plane of view and y across it, E depends on C_xx, C_yy and C_xy^2 alone. Nodes are
 ///   sqrt(C_xx) = (k/(ALBEDO_ALONG_NODES-1))^2,  sqrt(C_yy) = (k/(ALBEDO_ACROSS_NODES-1))^2,
 ///   C_xy^2/(C_xx C_yy) = k/(ALBEDO_CORRELATION_NODES-1),  cos_o = (k/(ALBEDO_BRUSHED_COS_NODES-1))^2.
 /// Within 5e-3 of E for slopes from .02 to 1 and aspects up to 10, from 3 degrees above the horizon.
-std::vector<glm::vec2> build_brushed_albedo_table(float alpha);
+std::vector<glm::vec2> build_brushed_albedo_table(const LobeShape& shape);
 
 /// (E1, Es) of Kurt's lobe for one omega_o (unit, z = normal, z > 0); the quadrature behind the tables.
-glm::dvec2 directional_albedo(glm::dvec3 omega_o, glm::dvec2 roughness, double alpha);
+/// `is_quick`: with fewer nodes, within 1e-3 for r0 = 1, 3e-3 for .04.
+glm::dvec2 directional_albedo(glm::dvec3 omega_o, glm::dvec2 roughness, double alpha, bool is_quick = false);
 
 } // namespace burnish

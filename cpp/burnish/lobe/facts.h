@@ -69,8 +69,8 @@ struct LobeModel {
     /// How far mixtures follow the moments of what is reflected, see weighted_lobe.h.
     double (*moment_share)(const LobeShape& shape);
     /// (E1, Es): integrals of f cos_i over light for F = 1 and for F = (1 - o.h)^5; of models with alpha
-    /// without cos_o^-alpha.
-    glm::dvec2 (*albedo)(const LobeShape& shape, glm::dvec3 omega_o);
+    /// without cos_o^-alpha. `is_quick`: within 3e-3, for tables of a hundred thousand entries.
+    glm::dvec2 (*albedo)(const LobeShape& shape, glm::dvec3 omega_o, bool is_quick);
 };
 
 struct LobeFacts {

@@ -15,8 +15,9 @@ constexpr double LEAST_COS = 1e-4;
 /// A normal of the stretched hemisphere is at least so high: its half-vector has a slope.
 constexpr double LEAST_HEIGHT = 1e-9;
 constexpr double LEAST_COS_O = 1e-6; ///< of albedos
-constexpr int RADII = 24;
-constexpr int AZIMUTHS = 12; ///< in each quarter
+/// Nodes of albedos, and of quick ones; azimuths in each quarter.
+constexpr int RADII = 24, FEW_RADII = 16;
+constexpr int AZIMUTHS = 12, FEW_AZIMUTHS = 8;
 /// From one place to the next of a difference, in widths: its square is the error.
 constexpr double DIFFERENCE = 1e-5;
 
@@ -106,21 +107,22 @@ double moment_share(const LobeShape&) {
 /// Over slopes s (ax cos phi, ay sin phi) of half-vectors, with v = s^2/(1 + s^2): int int G_2 (o.h)/(co
 /// cos_h) dv/2 dphi/pi. Nodes crowd toward the horizon, and toward the azimuths at which a grazing view's
 /// horizon jumps.
-glm::dvec2 albedo(const LobeShape& shape, glm::dvec3 omega_o) {
-    static const Quadrature<RADII> radii = graded<RADII>();
-    static const Quadrature<AZIMUTHS> azimuths = graded<AZIMUTHS>();
+template <int radius_nodes, int azimuth_nodes>
+glm::dvec2 integrate(const LobeShape& shape, glm::dvec3 omega_o) {
+    static const Quadrature<radius_nodes> radii = graded<radius_nodes>();
+    static const Quadrature<azimuth_nodes> azimuths = graded<azimuth_nodes>();
     omega_o.z = std::max(omega_o.z, LEAST_COS_O);
     const glm::dvec2 a = shape.width();
     const double a_o = projected_width(shape, omega_o);
     const double first = std::atan2(omega_o.y * a.y, omega_o.x * a.x) - PI / 2.0;
     glm::dvec2 sum(0.0);
-    for (int j = 0; j < AZIMUTHS; ++j) {
+    for (int j = 0; j < azimuth_nodes; ++j) {
         const double near = PI / 2.0 * azimuths.x[j];
         for (const double phi : {first + near, first - near, first + PI - near, first + PI + near}) {
             const glm::dvec2 p = a * glm::dvec2(std::cos(phi), std::sin(phi));
             const double horizon = horizon_radius(omega_o, p),
                          last = horizon / std::sqrt(1.0 + horizon * horizon);
-            for (int k = 0; k < RADII; ++k) {
+            for (int k = 0; k < radius_nodes; ++k) {
                 const double root = last * (1.0 - radii.x[k]), s = root / std::sqrt(1.0 - root * root);
                 const glm::dvec3 g(s * p, 1.0);
                 const double length2 = glm::dot(g, g), og = glm::dot(omega_o, g);
@@ -135,6 +137,11 @@ glm::dvec2 albedo(const LobeShape& shape, glm::dvec3 omega_o) {
         }
     }
     return sum * 0.5;
+}
+
+glm::dvec2 albedo(const LobeShape& shape, glm::dvec3 omega_o, bool is_quick) {
+    return is_quick ? integrate<FEW_RADII, FEW_AZIMUTHS>(shape, omega_o)
+                    : integrate<RADII, AZIMUTHS>(shape, omega_o);
 }
 
 constexpr LobeModel GGX = {

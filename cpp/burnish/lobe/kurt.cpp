@@ -54,8 +54,8 @@ double moment_share(const LobeShape& shape) {
     return shared::MATCHED_MOMENT_SHARE * std::exp(-shape.width_x * shape.width_y);
 }
 
-glm::dvec2 albedo(const LobeShape& shape, glm::dvec3 omega_o) {
-    return directional_albedo(omega_o, shape.width(), shape.alpha);
+glm::dvec2 albedo(const LobeShape& shape, glm::dvec3 omega_o, bool is_quick) {
+    return directional_albedo(omega_o, shape.width(), shape.alpha, is_quick);
 }
 
 constexpr LobeModel KURT = {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <functional>
 #include <map>
+#include <set>
 #include <stdexcept>
 
 #include "burnish/error.h"
@@ -89,12 +90,15 @@ constexpr uint64_t MOST_VIEW_ENTRIES = 16'000'000;
 /// Whether the tables by view of all brushed lobes in the scene fit.
 bool fit_view_tables(const Scene& scene, const Plan& plan) {
     if (plan.sampler.placing != Placing::mixtures) return false;
-    uint64_t entries = 0;
+    std::set<MatchedLobe> tables;
     for (const MaterialInstance& instance : plan.instances)
         for (const Lobe& one : scene.materials[instance.material].lobes)
             if (const LobeFacts lobe = facts(one); lobe.is_brushed)
-                entries += view_table_entries(
+                tables.insert(
                     {.samples = plan.sampler.samples, .shape = lobe.shape, .has_schlick = lobe.has_fresnel});
+    uint64_t entries = 0;
+    for (const MatchedLobe& table : tables)
+        entries += view_table_entries(table);
     return entries <= MOST_VIEW_ENTRIES;
 }
 
@@ -103,13 +107,6 @@ bool fit_view_tables(const Scene& scene, const Plan& plan) {
 /// with as many points a component as the widest lobe needs.
 TableForm matched_form(const Material& material, bool fit_tables, ShadeClass& one) {
     const bool has_varying = one.variant[shared::SPEC_HAS_VARYING];
-    // Kernels that place samples at points know lobes of fixed half-vectors alone.
-    if (any_lobe(material, [](const LobeFacts& lobe) { return !lobe.shape.model->has_fixed_half_vectors; })) {
-        if (fit_tables) return TableForm::matched_by_view;
-        throw std::invalid_argument(
-            message("scene: expected brushed lobes whose tables by view have at most ", MOST_VIEW_ENTRIES,
-                    " entries in all, got more: fewer samples need fewer, importance sampling none"));
-    }
     if (!has_varying && !any_lobe(material, [&](const LobeFacts& lobe) {
             return lobe.is_brushed && !(fit_tables && fits_view_table(lobe.width()));
         }))

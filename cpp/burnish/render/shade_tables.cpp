@@ -127,7 +127,7 @@ ShadeTables make_shade_tables(const vulkan::DevicePointer& device, const Scene& 
                     record.view_columns = views.columns;
                     record.view_drift = views.drift;
                 } else {
-                    record.table_begin = writer.mixtures(plan.sampler.samples);
+                    record.table_begin = writer.mixtures(plan.sampler.samples, lobe.shape.model->density);
                 }
                 record.table_count = plan.sampler.samples;
                 record.level_share = spherical_share(1.0, face_size);
@@ -144,7 +144,7 @@ ShadeTables make_shade_tables(const vulkan::DevicePointer& device, const Scene& 
             if (plan.sampler.needs_albedo || one.variant[shared::SPEC_CONSERVES_ENERGY]) {
                 const bool is_varying_brushed = is_brushed(material) && !is_coat(which, one);
                 const auto albedo = one.variant[shared::SPEC_HAS_VARYING]
-                                        ? writer.varying_albedo(is_varying_brushed, lobe.shape.alpha)
+                                        ? writer.varying_albedo(is_varying_brushed, lobe.shape)
                                         : writer.albedo(lobe.shape);
                 record.albedo_begin = albedo.begin;
                 record.albedo_width_nodes = albedo.count;

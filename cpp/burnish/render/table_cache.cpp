@@ -31,9 +31,9 @@ const AlbedoTable& TableCache::albedo(const LobeShape& shape) {
     return found->second;
 }
 
-SampleEntries TableCache::mixtures(uint32_t count) {
-    SampleEntries& found = mixtures_[count];
-    if (!found) found = std::make_shared<std::vector<glm::vec4>>(matched_mixtures(count));
+SampleEntries TableCache::mixtures(uint32_t count, Density density) {
+    SampleEntries& found = mixtures_[{count, density}];
+    if (!found) found = std::make_shared<std::vector<glm::vec4>>(all_matched_mixtures(count, density));
     return found;
 }
 
@@ -67,14 +67,14 @@ std::shared_ptr<const SampleBuffer> TableCache::sample_buffer(const vulkan::Devi
     return samples_ = std::move(made);
 }
 
-const std::vector<glm::vec2>& TableCache::varying_albedo(float alpha, bool is_brushed) {
-    const std::pair key(alpha, is_brushed);
+const std::vector<glm::vec2>& TableCache::varying_albedo(const LobeShape& shape, bool is_brushed) {
+    const std::pair key(shape, is_brushed);
     auto found = varying_albedo_.find(key);
     if (found != varying_albedo_.end()) return found->second;
     make_room(varying_albedo_, MOST_VARYING_ALBEDO_TABLES);
     found =
         varying_albedo_
-            .emplace(key, is_brushed ? build_brushed_albedo_table(alpha) : build_varying_albedo_table(alpha))
+            .emplace(key, is_brushed ? build_brushed_albedo_table(shape) : build_varying_albedo_table(shape))
             .first;
     return found->second;
 }

@@ -30,8 +30,8 @@ public:
     /// Until the next table of the kind is asked for, as references below.
     const AlbedoTable& albedo(const LobeShape& shape);
     /// Of all round lobes, or of all brushed ones.
-    const std::vector<glm::vec2>& varying_albedo(float alpha, bool is_brushed);
-    SampleEntries mixtures(uint32_t count);
+    const std::vector<glm::vec2>& varying_albedo(const LobeShape& shape, bool is_brushed);
+    SampleEntries mixtures(uint32_t count, Density density);
     KeptViewTable view_table(const MatchedLobe& lobe);
     /// The tables one after the other, on the device: the last ones again if they are the same.
     std::shared_ptr<const SampleBuffer> sample_buffer(const vulkan::DevicePointer& device,
@@ -41,8 +41,8 @@ public:
 
 private:
     std::map<LobeShape, AlbedoTable> albedo_;
-    std::map<std::pair<float, bool>, std::vector<glm::vec2>> varying_albedo_;
-    std::map<uint32_t, SampleEntries> mixtures_;
+    std::map<std::pair<LobeShape, bool>, std::vector<glm::vec2>> varying_albedo_;
+    std::map<std::pair<uint32_t, Density>, SampleEntries> mixtures_;
     std::map<MatchedLobe, KeptViewTable> view_tables_;
     uint64_t view_entries_ = 0; ///< of all view_tables_
     std::shared_ptr<const SampleBuffer> samples_;

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <map>
 #include <memory>
-#include <optional>
 #include <tuple>
 #include <vector>
 
@@ -53,10 +52,13 @@ public:
         return found->second;
     }
 
-    /// First entry of the mixtures of a count.
-    uint32_t mixtures(uint32_t count) {
-        if (!mixtures_begin_) mixtures_begin_ = append(cache_.mixtures(count));
-        return *mixtures_begin_;
+    /// First entry of the mixtures of a count that stand for a density.
+    uint32_t mixtures(uint32_t count, Density density) {
+        const std::pair key(count, density);
+        auto found = mixture_begins_.find(key);
+        if (found == mixture_begins_.end())
+            found = mixture_begins_.emplace(key, append(cache_.mixtures(count, density))).first;
+        return found->second;
     }
 
     struct ViewRange {
@@ -84,10 +86,10 @@ public:
     }
 
     /// The same of lobes whose roughness varies; brushed ones have more than one azimuth.
-    Range varying_albedo(bool is_brushed, float alpha) {
+    Range varying_albedo(bool is_brushed, const LobeShape& shape) {
         const float nodes = is_brushed ? 2.0f : 1.0f;
-        return albedo({.width_x = 0.0f, .width_y = nodes, .alpha = alpha},
-                      cache_.varying_albedo(alpha, is_brushed), uint32_t(nodes));
+        const LobeShape key{.model = shape.model, .width_x = 0.0f, .width_y = nodes, .alpha = shape.alpha};
+        return albedo(key, cache_.varying_albedo(key, is_brushed), uint32_t(nodes));
     }
 
     std::vector<SampleEntries> sample_tables;
@@ -120,7 +122,7 @@ private:
     const Plan& plan_;
     TableCache& cache_;
     uint32_t entry_count_ = 0;
-    std::optional<uint32_t> mixtures_begin_;
+    std::map<std::pair<uint32_t, Density>, uint32_t> mixture_begins_;
     std::map<MatchedLobe, ViewRange> view_ranges_;
     std::map<std::tuple<TableForm, LobeShape, uint32_t>, SampleTable> tables_;
     std::map<std::pair<const SampleTable*, uint32_t>, Range> ranges_;

@@ -19,16 +19,16 @@ constexpr double STUDENT[] = {
 #include "student.txt"
 };
 
-/// Windows R of Student's tables, what of the density each leaves, and the widths up to which lobes take
+/// Windows R of Student's tables, what of the density each leaves, and the widths beyond which lobes take
 /// them.
 struct Window {
-    double radius, share, most_width;
+    double radius, share, least_width;
 };
-constexpr double NONE = std::numeric_limits<double>::infinity();
-constexpr std::array<Window, 3> WINDOWS = {
-    {{NONE, 1.0, 0.25}, {2.7, 0.8406213, 0.4}, {1.4, 0.6614072, NONE}}};
-/// A window's quotient is not let grow beyond exp of this.
-constexpr double MOST_EXPONENT = 2.5;
+constexpr std::array<Window, shared::MATCHED_WINDOWS> WINDOWS = {
+    {{std::numeric_limits<double>::infinity(), 1.0, 0.0},
+     {shared::MATCHED_SECOND_WINDOW, shared::MATCHED_SECOND_WINDOW_SHARE,
+      shared::MATCHED_SECOND_WINDOW_WIDTH},
+     {shared::MATCHED_THIRD_WINDOW, shared::MATCHED_THIRD_WINDOW_SHARE, shared::MATCHED_THIRD_WINDOW_WIDTH}}};
 
 constexpr uint32_t entries_of(uint32_t nodes, uint32_t count) {
     return nodes * ((count + 1) / 2);
@@ -50,7 +50,7 @@ static_assert(std::size(STUDENT) == 4 * WINDOWS.size() * entries_of_all(shared::
 MixtureTable MixtureTable::of(Density density, double width) {
     MixtureTable table{density, 0};
     if (density == Density::student)
-        while (width > WINDOWS[table.window].most_width)
+        while (table.window + 1 < WINDOWS.size() && width > WINDOWS[table.window + 1].least_width)
             ++table.window;
     return table;
 }
@@ -60,12 +60,21 @@ double MixtureTable::ratio(double lobe_r2, double mixture_r2) const {
     const Window& one = WINDOWS[window];
     const double quotient = (1.0 + mixture_r2) / (1.0 + lobe_r2);
     return quotient * quotient * one.share *
-           std::exp(std::min(0.5 * mixture_r2 / (one.radius * one.radius), MOST_EXPONENT));
+           std::exp(std::min(0.5 * mixture_r2 / (one.radius * one.radius),
+                             double(shared::MATCHED_MOST_WINDOW_EXPONENT)));
 }
 
 uint32_t matched_row(double rho) {
     const double last = shared::MATCHED_ROWS - 1;
     return uint32_t(std::clamp(std::log2(rho) * last / shared::MATCHED_LOG2_LARGEST_RHO + 0.5, 0.0, last));
+}
+
+std::vector<glm::vec4> all_matched_mixtures(uint32_t count, Density density) {
+    std::vector<glm::vec4> result = matched_mixtures(count, {density, 0});
+    if (density == Density::student)
+        for (uint32_t window = 1; window < WINDOWS.size(); ++window)
+            std::ranges::copy(matched_mixtures(count, {density, window}), std::back_inserter(result));
+    return result;
 }
 
 std::vector<glm::vec4> matched_mixtures(uint32_t count, MixtureTable table) {

@@ -29,6 +29,8 @@ struct MixtureTable {
 /// the lobe's major axis on the map, y2 and the width s in units of its minor axis; the weights w of all
 /// components of a row sum to 1. `count` is one of MATCHED_COUNTS.
 std::vector<glm::vec4> matched_mixtures(uint32_t count, MixtureTable table = {});
+/// Those of all windows of a density, one after the other.
+std::vector<glm::vec4> all_matched_mixtures(uint32_t count, Density density);
 
 /// The row nearest to an aspect.
 uint32_t matched_row(double rho);

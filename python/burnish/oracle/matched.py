@@ -94,7 +94,9 @@ def rows_of(lobe: LobeLike, samples: int) -> Array:
 def placement_of(lobe: LobeLike) -> Placement:
     """How samples of a lobe are placed that no texture varies."""
     mx, my = slopes(lobe)
-    return "view" if max(mx, my) <= MOST_VIEW_ASPECT * min(mx, my) else "point"
+    if max(mx, my) <= MOST_VIEW_ASPECT * min(mx, my):
+        return "view"
+    return "point" if model_of(lobe).DENSITY == "gaussian" else "wide point"
 
 
 def place_means(

@@ -51,8 +51,10 @@ class Means:
 
 
 def linear_place(omega_o: Array, lobe: LobeLike) -> Place:
-    """Over the lobe itself, along the principal axes of `lobe_map`."""
+    """Over the lobe itself, along the principal axes of `lobe_map`; of other densities as `weighted_place`."""
     mx, my = slopes(lobe)
+    if model_of(lobe).DENSITY != "gaussian":
+        return weighted_place(omega_o, lobe)
     a, b, v1, v2 = principal_axes(lobe_map(omega_o, mx, my)[0])
     axis1, axis2 = np.stack([mx * v1, my * v2], axis=-1), np.stack([-mx * v2, my * v1], axis=-1)
     return Place(np.zeros_like(axis1), axis1, axis2, a / b)
@@ -233,9 +235,11 @@ def corner_means(omega_o: Array, lobe: LobeLike, mixture: Mixture, place: Place)
     deviations: exact to the third degree.
     """
     corners = np.sqrt(1.2) * np.array([[0, 0], [1, 1], [1, -1], [-1, 1], [-1, -1]])
-    points = _slopes_at(place, *_spread_over(mixture, place, corners))
+    y1, y2 = _spread_over(mixture, place, corners)
     shares = np.array([4, 5, 5, 5, 5]) / 24
-    return _means(omega_o, lobe, mixture, place, points, shares, np.ones(1))
+    if model_of(lobe).DENSITY != "gaussian":
+        shares = shares * window_ratio(max(slopes(lobe)), y1**2 + y2**2)
+    return _means(omega_o, lobe, mixture, place, _slopes_at(place, y1, y2), shares, np.ones(1))
 
 
 def two_point_means(omega_o: Array, lobe: LobeLike, mixture: Mixture, place: Place) -> Means:

@@ -176,13 +176,37 @@ def test_models_share_a_picture(device, spots64):
     np.testing.assert_allclose(both[:, 40:], kurt[:, 40:], rtol=1e-5, atol=1e-5)
 
 
-def test_tables_by_view_beyond_their_memory_are_refused(device, spots64):
-    """No kernel places such lobes at a point instead."""
+# Of every window of Student's density; too brushed for a table by view.
+AT_POINTS = {
+    "narrow": burnish.GgxLobe((0.1, 0.004)),
+    "middle": burnish.GgxLobe((0.02, 0.35), r0=(0.9, 0.5, 0.04), f90=0.8, weight=(0.5, 1, 0.2), rotation=0.7),
+    "wide": burnish.GgxLobe((1.0, 0.05), r0=0.04),
+}
+
+
+@pytest.mark.parametrize("name", AT_POINTS)
+@pytest.mark.parametrize("samples", [2, 5, 14, 64])
+def test_mixtures_at_points_equal_the_oracle(device, spots64, points, name, samples):
+    material = burnish.Material(lobes=[AT_POINTS[name]])
+    levels = _core.environment_spherical(device, spots64, "gauss6")
+    light_map = MatchedMap(pad_cube(levels))
+    expected = shade_matched_lobes(light_map, material, samples, *points, "wide point")
+    compare(device, shade(device, spots64, material.lobes, burnish.Matched(samples), points), expected)
+
+
+def test_tables_by_view_beyond_their_memory_give_way_to_points(device, spots64):
+    """Few lobes have tables, many of them are placed at points: pictures differ by what that changes."""
     lobes = [burnish.GgxLobe((0.3, 0.1 + 0.001 * k), r0=0.04) for k in range(8)]
-    scene = burnish.Scene.spheres([burnish.Material(lobes=[lobe]) for lobe in lobes], 4)
-    scene.environment = spots64
-    with pytest.raises(ValueError, match="tables by view have at most 16000000 entries"):
-        burnish.render(scene, size=(8, 8), sampler=burnish.Matched(64), device=device)
+
+    def draw(chosen):
+        scene = burnish.Scene.spheres([burnish.Material(lobes=[lobe]) for lobe in chosen], 4)
+        scene.environment = spots64
+        return burnish.render(scene, size=(48, 96), sampler=burnish.Matched(64), device=device)
+
+    # The upper row of spheres is of the same lobes in both.
+    few, many = (draw(chosen).color[:24] for chosen in (lobes[:4] * 2, lobes))
+    assert np.mean(many != few) > 0.1
+    assert np.sqrt(np.sum((many - few) ** 2) / np.sum(few**2)) < 0.01
 
 
 @pytest.mark.parametrize("wrong", [{"normalization": "published"}, {"footprint": "published"}])
