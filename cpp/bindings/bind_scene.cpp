@@ -102,16 +102,20 @@ void bind_scene(py::module_& m) {
         .def(py::init<>())
         .def_static(
             "from_file",
-            [](const std::filesystem::path& path) {
+            [](const std::filesystem::path& path, const std::string& model) {
+                const MaterialModel chosen = material_model_of(model);
                 const Released release;
-                return std::make_shared<Scene>(load_gltf(path.string()));
+                return std::make_shared<Scene>(load_gltf(path.string(), chosen));
             },
-            py::arg("path"), R"(Read a glTF 2.0 file.
+            py::arg("path"), py::arg("model") = "ggx", R"(Read a glTF 2.0 file.
 
 Parameters
 ----------
 path : str or os.PathLike
     .gltf or .glb; files it refers to lie in or below its folder.
+model : str
+    Lobes that its materials become: "ggx", in layers as glTF means it, or "kurt", Kurt's lobes that add up; see
+    `Material.metallic_roughness`.
 
 Returns
 -------
@@ -121,7 +125,9 @@ scene : Scene
 Raises
 ------
 FileError
-    If the file is missing, damaged, or requires an extension that is not supported.)")
+    If the file is missing, damaged, or requires an extension that is not supported.
+ValueError
+    If there is no such model.)")
         .def_static(
             "sphere",
             [](const Material& material) { return std::make_shared<Scene>(Scene::sphere(material)); },

@@ -6,15 +6,53 @@ namespace burnish {
 namespace {
 
 Material make_material(const Color& diffuse, std::vector<Lobe> lobes, const Color& emissive, std::string name,
-                       bool double_sided) {
+                       bool double_sided, bool layered) {
     Material material;
     material.diffuse = vec3_of(diffuse);
     material.lobes = std::move(lobes);
     material.emissive = vec3_of(emissive);
     material.name = std::move(name);
     material.double_sided = double_sided;
+    if (layered) make_layers(material);
     validate(material);
     return material;
+}
+
+Material make_metallic_roughness(const Color& base_color, float metallic, float roughness, float clearcoat,
+                                 float clearcoat_roughness, float anisotropy, float anisotropy_rotation,
+                                 float ior, float specular, const Color& specular_color,
+                                 const Color& emissive, const std::string& model, std::string name,
+                                 bool double_sided) {
+    Material material;
+    MetallicRoughness& source = material.source.emplace();
+    source.model = material_model_of(model);
+    source.base_color = glm::vec4(vec3_of(base_color), 1.0f);
+    source.metallic = metallic;
+    source.roughness = roughness;
+    source.ior = ior;
+    source.specular = specular;
+    source.specular_color = vec3_of(specular_color);
+    source.anisotropy = anisotropy;
+    source.anisotropy_rotation = anisotropy_rotation;
+    source.clearcoat = clearcoat;
+    source.clearcoat_roughness = clearcoat_roughness;
+    material.emissive = vec3_of(emissive);
+    material.name = std::move(name);
+    material.double_sided = double_sided;
+    validate(material);
+    map_metallic_roughness(material);
+    return material;
+}
+
+/// (E1's share, Es's share) of each lobe that takes a fixed share, None of others.
+py::object covers_of(const Material& material) {
+    if (material.covers.empty()) return py::none();
+    py::list covers;
+    for (const Cover& cover : material.covers)
+        covers.append(py::make_tuple(
+            cover.albedo ? py::object(py::make_tuple(cover.albedo->x, cover.albedo->y)) : py::none(),
+            cover.is_over_emission));
+    return py::tuple(covers);
 }
 
 const char* alpha_mode_name(const Material& material) {
@@ -75,6 +113,10 @@ name : str
     Shown in reports.
 double_sided : bool
     Whether back faces are drawn, with the normal turned over.
+layered : bool
+    Lobes lie over each other and over the diffuse part in their order: what one reflects toward the eye, its
+    albedo's largest channel, is missing from what lies below, so that no more comes back than came in. The
+    lowest lobe is of the surface that emits. Else all parts add up.
 
 Raises
 ------
@@ -82,7 +124,57 @@ ValueError
     If a number is out of its range.)")
         .def(py::init(&make_material), py::arg("diffuse") = Color(0.0f),
              py::arg("lobes") = std::vector<Lobe>{}, py::arg("emissive") = Color(0.0f), py::arg("name") = "",
-             py::arg("double_sided") = false)
+             py::arg("double_sided") = false, py::arg("layered") = false)
+        .def_static("metallic_roughness", &make_metallic_roughness, py::arg("base_color") = Color(1.0f),
+                    py::arg("metallic") = 0.0f, py::arg("roughness") = 0.5f, py::arg("clearcoat") = 0.0f,
+                    py::arg("clearcoat_roughness") = 0.0f, py::arg("anisotropy") = 0.0f,
+                    py::arg("anisotropy_rotation") = 0.0f, py::arg("ior") = 1.5f, py::arg("specular") = 1.0f,
+                    py::arg("specular_color") = Color(1.0f), py::arg("emissive") = Color(0.0f),
+                    py::arg("model") = "ggx", py::arg("name") = "", py::arg("double_sided") = false,
+                    R"(The material that glTF's numbers mean.
+
+With f0 = min(((ior - 1)/(ior + 1))^2 specular_color, 1) specular and m = max(roughness^2, 1e-3) the base lobe
+reflects mix(f0, base_color, metallic) along the normal, mix(specular, 1, metallic) along the surface; anisotropy
+makes it mix(m, 1, anisotropy^2) wide along the tangent. "ggx" takes m for alpha; the diffuse part, base_color
+(1 - metallic), lies below the dielectric's share of the lobe, both below a clear coat of r0 .04. "kurt" takes m
+for the slope of lobes that add up; the diffuse part lacks what a dielectric reflects along the normal.
+
+Parameters
+----------
+base_color : float or (float, float, float)
+    Linear, in 0..1.
+metallic, roughness, clearcoat, clearcoat_roughness, anisotropy, specular : float
+    In 0..1; roughness is perceptual.
+anisotropy_rotation : float
+    Radians, counter-clockwise from the tangent.
+ior : float
+    1 or more; 0 stands for infinity.
+specular_color : float or (float, float, float)
+    >= 0.
+emissive : float or (float, float, float)
+    Radiance given off, >= 0; below a clear coat.
+model : str
+    "ggx" or "kurt".
+name : str
+    Shown in reports.
+double_sided : bool
+    Whether back faces are drawn, with the normal turned over.
+
+Returns
+-------
+material : Material
+
+Raises
+------
+ValueError
+    If a number is out of its range, or there is no such model.)")
+        .def_property_readonly(
+            "layered", [](const Material& x) { return !x.covers.empty(); },
+            "Whether lobes take light from what lies below them.")
+        .def_property_readonly("covers", &covers_of,
+                               "None, or of each lobe ((a, b) or None, bool): the share a E_1 + b E_s of its "
+                               "albedo that what lies below it lacks, None for all that it reflects; and "
+                               "whether emission lies below.")
         .def_property_readonly(
             "diffuse", [](const Material& x) { return tuple_of(x.diffuse); },
             "(float, float, float): diffuse reflectance.")

@@ -12,6 +12,7 @@
 #include <pybind11/stl.h>
 
 #include "burnish/error.h"
+#include "burnish/scene/material.h"
 #include "numpy.h"
 
 namespace burnish {
@@ -83,6 +84,13 @@ py::object array_of(const std::vector<Vector>& vectors) {
     const float* first = reinterpret_cast<const float*>(vectors.data());
     return make_array(std::vector<float>(first, first + vectors.size() * COMPONENTS),
                       {static_cast<py::ssize_t>(vectors.size()), COMPONENTS});
+}
+
+/// Throws std::invalid_argument for a name that is none.
+inline MaterialModel material_model_of(const std::string& name) {
+    if (name == "ggx") return MaterialModel::ggx;
+    if (name == "kurt") return MaterialModel::kurt;
+    throw std::invalid_argument(message("model: expected 'ggx' or 'kurt', got '", name, "'"));
 }
 
 /// Binds lobes, Material and Camera, and Mesh by bind_mesh.

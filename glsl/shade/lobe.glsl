@@ -179,7 +179,8 @@ vec3 finish_lobe(LobeView v, LobeSums sums, vec3 specular, vec3 grazing, vec2 al
         exact += grazing * albedo.y;
     }
     if (NORMALIZATION == NORMALIZATION_FURNACE) return divide_or_zero(light, weight) * exact * v.cos_o_power;
-    if (TABLE == TABLE_SCALED_REGULAR) return light / max(sums.density, 1e-30) * v.cos_o_power;
+    if (TABLE == TABLE_SCALED_REGULAR && has_fixed_half_vectors(v.model))
+        return light / max(sums.density, 1e-30) * v.cos_o_power;
     return light * v.cos_o_power;
 }
 

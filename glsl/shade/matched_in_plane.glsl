@@ -1,5 +1,5 @@
 // The variance-matched sampler in the plane of any lobe, placed at a point: what depends on the model is
-// asked of it. (Kurt's lobe has a shorter way, shade/matched.glsl.)
+// asked of it. Lobes of fixed half-vectors have a shorter way, shade/matched.glsl.
 #ifndef BURNISH_SHADE_MATCHED_IN_PLANE
 #define BURNISH_SHADE_MATCHED_IN_PLANE
 

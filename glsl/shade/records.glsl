@@ -58,6 +58,7 @@ LobeRecord load_lobe(uint index) {
     lobe.level_share = uintBitsToFloat(row.y);
     lobe.view_columns = row.z;
     lobe.view_drift = row.w;
+    lobe.cover = uintBitsToFloat(ROW(lobe_rows, LOBE, 5));
     return lobe;
 }
 

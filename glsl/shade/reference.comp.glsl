@@ -13,6 +13,7 @@
 #include "lib/random.glsl"
 #include "shade/albedo.glsl"
 #include "lookup/map_lookup.glsl"
+#include "shade/layers.glsl"
 #include "shade/surface_point.glsl"
 
 layout(constant_id = SPEC_IS_QUADRATURE) const bool IS_QUADRATURE = false;
@@ -172,7 +173,8 @@ void main() {
     MaterialRecord material = load_material(point.material);
     MapRecord map = load_map_record(material.map);
 
-    vec3 batch = vec3(0.0);
+    Layers layers = Layers(vec3(0.0), 1.0);
+    if (HAS_DIFFUSE) layers.light = point_diffuse(point) * diffuse_batch(point, map);
     for (uint which = 0u; which < LOBE_COUNT; ++which) {
         LobeRecord record = load_lobe(material.lobe_begin + which);
         LobeView v;
@@ -184,13 +186,17 @@ void main() {
         v.layer = float(map.layer);
         uint seed = hash_uint(point.index * 4u + which) ^ hash_uint(push.batch + 0x51633e2du);
         vec3 light = IS_QUADRATURE ? quadrature(v, map) : progressive(v, map, seed);
-        if (CONSERVES_ENERGY) {
+        float through = 1.0;
+        if (CONSERVES_ENERGY || HAS_LAYERS) {
             vec2 albedo = lobe_albedo(record, v.lobe.roughness, v.local_o);
-            light *= conserving_scale(record, albedo, pow(max(v.local_o.z, MIN_COS), -record.alpha));
+            float power = pow(max(v.local_o.z, MIN_COS), -record.alpha);
+            float conserving = conserving_scale(record, albedo, power);
+            light *= conserving;
+            through = lobe_through(record, v.lobe, albedo * (conserving * power));
         }
-        batch += light;
+        add_lobe(layers, record, light, through);
     }
-    if (HAS_DIFFUSE) batch += point_diffuse(point) * diffuse_batch(point, map);
+    vec3 batch = layers.light;
     if (!point.is_mine) return;
     batch = stop_non_finite(batch, point.index, GUARD_REFERENCE);
     vec4 sum = push.batch == 0u ? vec4(0.0) : statistics[point.index];
@@ -202,6 +208,6 @@ void main() {
     // Quadrature batches are parts of one sum, progressive ones are estimates of it.
     vec3 radiance = sum.rgb / (IS_QUADRATURE ? unit : unit * float(push.batch + 1u));
     radiance *= map.radiance_scale;
-    if (HAS_EMISSIVE) radiance += point_emissive(point);
+    if (HAS_EMISSIVE) radiance += point_emissive(point) * layers.emission;
     store_radiance(point, stop_non_finite(radiance, point.index, GUARD_REFERENCE), 1.0);
 }

@@ -4,6 +4,7 @@
 #define BURNISH_SHADE_SHADE
 
 #include "shade/diffuse.glsl"
+#include "shade/layers.glsl"
 #include "shade/lobe.glsl"
 #include "shade/matched.glsl"
 #include "shade/matched_by_view.glsl"
@@ -14,7 +15,7 @@
 // Light of the lobe at the point without its suns, conserving_scale and the map's exposure.
 vec3 look_up_lobe(LobeView v, SurfaceLobe lobe, LobeRecord record, vec2 albedo, MapRecord map);
 
-vec3 shade_lobe(PointToShade point, MapRecord map, uint lobe_index, uint which) {
+void shade_lobe(PointToShade point, MapRecord map, uint lobe_index, uint which, inout Layers layers) {
     SurfaceLobe lobe = point_lobe(point, lobe_index, which);
     LobeRecord record = load_lobe(lobe_index);
     LobeView v;
@@ -31,11 +32,14 @@ vec3 shade_lobe(PointToShade point, MapRecord map, uint lobe_index, uint which) 
     v.layer = float(map.layer);
 
     vec2 albedo = vec2(0.0);
-    if (NORMALIZATION == NORMALIZATION_FURNACE || CONSERVES_ENERGY || TABLE == TABLE_PREFILTERED)
+    if (NORMALIZATION == NORMALIZATION_FURNACE || CONSERVES_ENERGY || TABLE == TABLE_PREFILTERED ||
+        HAS_LAYERS)
         albedo = lobe_albedo(record, v.roughness, v.local_o);
     vec3 light = look_up_lobe(v, lobe, record, albedo, map);
     if (SUN_COUNT > 0u) light += shade_suns(v, map, lobe.specular, lobe.grazing);
-    return light * conserving_scale(record, albedo, v.cos_o_power);
+    float conserving = conserving_scale(record, albedo, v.cos_o_power);
+    add_lobe(layers, record, light * conserving,
+             lobe_through(record, lobe, albedo * (conserving * v.cos_o_power)));
 }
 
 void main() {
@@ -43,15 +47,15 @@ void main() {
     MaterialRecord material = load_material(point.material);
     MapRecord map = load_map_record(material.map);
 
-    vec3 radiance = vec3(0.0);
+    Layers layers = Layers(vec3(0.0), 1.0);
     if (HAS_DIFFUSE)
-        radiance += point_diffuse(point) *
-                    diffuse_light(map, material.map, environment_from_world(map, point.frame[2]));
+        layers.light = point_diffuse(point) *
+                       diffuse_light(map, material.map, environment_from_world(map, point.frame[2]));
     [[unroll]] for (uint which = 0u; which < LOBE_COUNT; ++which) {
-        radiance += shade_lobe(point, map, material.lobe_begin + which, which);
+        shade_lobe(point, map, material.lobe_begin + which, which, layers);
     }
-    radiance *= map.radiance_scale;
-    if (HAS_EMISSIVE) radiance += point_emissive(point);
+    vec3 radiance = layers.light * map.radiance_scale;
+    if (HAS_EMISSIVE) radiance += point_emissive(point) * layers.emission;
     store_radiance(point, radiance, 1.0);
 }
 

@@ -25,7 +25,7 @@ SHARED_CONST uint ALBEDO_ROUGHNESS_NODES = 32u; // of round lobes whose roughnes
 SHARED_CONST uint ALBEDO_BRUSHED_COS_NODES = 64u;
 SHARED_CONST uint ALBEDO_ALONG_NODES = 32u;
 SHARED_CONST uint ALBEDO_ACROSS_NODES = 12u;
-SHARED_CONST uint ALBEDO_CORRELATION_NODES = 6u;
+SHARED_CONST uint ALBEDO_CORRELATION_NODES = 8u;
 
 // The matched table is fitted at MATCHED_NODES aspects of the lobe on the map, evenly in their log up to 100,
 // and read from MATCHED_ROWS: so many that the nearest will do.
@@ -34,9 +34,9 @@ SHARED_CONST uint MATCHED_STUDENT_NODES = 18u; // of lobes with tails
 SHARED_CONST uint MATCHED_ROWS = 1024u;
 SHARED_CONST float MATCHED_LOG2_LARGEST_RHO = 6.6438562f;
 // Mixtures of lobes with tails stand for the density in a window exp(-r^2/(2 R^2)): the wider a lobe the
-// narrower its window, as what is beyond lies below the horizon. Lobes have the first window from none on, the
-// others from a width on; a window leaves a share of the density, and its quotient grows no further than exp
-// of the last.
+// narrower its window, as what is beyond lies below the horizon. Lobes have the first window from none on,
+// the others from a width on; a window leaves a share of the density, and its quotient grows no further than
+// exp of the last.
 SHARED_CONST uint MATCHED_WINDOWS = 3u;
 SHARED_CONST float MATCHED_SECOND_WINDOW_WIDTH = 0.25f;
 SHARED_CONST float MATCHED_SECOND_WINDOW = 2.7f;
@@ -142,6 +142,7 @@ SHARED_CONST uint SPEC_PHASE = 27u;                  // lookups at a turn, of ta
 SHARED_CONST uint SPEC_HAS_COAT_NORMAL = 28u;        // the clear coat's normal is not the base's
 SHARED_CONST uint SPEC_HAS_HARMONICS = 29u; // diffuse light by nine harmonics, not by an irradiance cube
 SHARED_CONST uint SPEC_IRRADIANCE_IS_STORED = 30u; // in a storage buffer: a texel buffer holds fewer
+SHARED_CONST uint SPEC_HAS_LAYERS = 31u;           // lobes take light from what lies below them
 SHARED_CONST uint SPEC_SAMPLES = 100u; // of the lookups alone, for benchmarks: four floats a sample follow
 
 SHARED_CONST uint LOOKUP_SAMPLER = 0u; // the device's

@@ -8,7 +8,7 @@
 SHARED_BEGIN
 
 // Rows of 16 bytes: shade kernels read records by them (shade/records.glsl).
-SHARED_CONST uint LOBE_ROWS = 5u;
+SHARED_CONST uint LOBE_ROWS = 6u;
 SHARED_CONST uint MATERIAL_ROWS = 3u;
 SHARED_CONST uint MAP_ROWS = 21u;
 
@@ -30,6 +30,8 @@ struct LobeRecord {
     uint view_columns;       // of a table by view: 1 = isotropic
     uint view_drift; // of a table by view, two halves: what slopes move by for a unit of the view along and
                      // across
+    vec4 cover;      // of layers, see Cover (scene/material.h). xy: what it takes from what lies below, x E1
+                     // + y Es of its albedo; x < 0: what it reflects; z: 1 if emission lies below, too
 };
 SHARED_SIZE(LobeRecord, 16 * LOBE_ROWS)
 
@@ -105,7 +107,8 @@ struct SurfaceRecord {
     float occlusion_strength;
     uint texture_begin; // first of its TEXTURE_KINDS TextureRecords
     float clearcoat_normal_scale;
-    uint pad0;
+    float is_layered; // 1: the dielectric's lobe takes from the diffuse part what it reflects; else it lacks
+                      // what that reflects along the normal
     uint pad1;
     uint pad2;
 };

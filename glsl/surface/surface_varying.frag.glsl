@@ -132,9 +132,11 @@ void main() {
     vec4 metallic_roughness = read_texture(TEXTURE_METALLIC_ROUGHNESS, vec4(1.0));
     float specular = material.specular.a * read_texture(TEXTURE_SPECULAR, vec4(1.0)).a;
     vec3 specular_color = read_texture(TEXTURE_SPECULAR_COLOR, vec4(1.0)).rgb;
-    MappedMaterial mapped = map_metallic_roughness(
-        base.rgb, material.metallic * metallic_roughness.b, material.roughness * metallic_roughness.g,
-        min(material.specular.rgb * specular_color, vec3(1.0)) * specular, specular, anisotropy);
+    vec3 dielectric = min(material.specular.rgb * specular_color, vec3(1.0)) * specular;
+    MappedMaterial mapped =
+        map_metallic_roughness(base.rgb, material.metallic * metallic_roughness.b,
+                               material.roughness * metallic_roughness.g, dielectric, specular, anisotropy);
+    float below = 1.0 - (1.0 - material.is_layered) * max(max(dielectric.r, dielectric.g), dielectric.b);
     float occlusion =
         1.0 + material.occlusion_strength * (read_texture(TEXTURE_OCCLUSION, vec4(1.0)).r - 1.0);
     vec3 emissive = material.emissive.rgb * read_texture(TEXTURE_EMISSIVE, vec4(1.0)).rgb;
@@ -144,7 +146,7 @@ void main() {
         material.clearcoat_roughness * read_texture(TEXTURE_CLEARCOAT_ROUGHNESS, vec4(1.0)).g;
 
     surface = pack_surface(frame[2], frame[0], handedness, draw.material);
-    diffuse_out = round_to_half(vec4(mapped.diffuse * occlusion, mapped.roughness.x));
+    diffuse_out = round_to_half(vec4(mapped.diffuse * (below * occlusion), mapped.roughness.x));
     specular_out = round_to_half(vec4(mapped.specular, mapped.roughness.y));
     emissive_out = round_to_half(vec4(emissive, mapped.specular.r + mapped.grazing.r));
     coat_out = uvec2(packHalf2x16(vec2(coat, slope_from_perceptual(coat_roughness))),

@@ -99,7 +99,29 @@ class Material:
         emissive: _Color = 0.0,
         name: str = "",
         double_sided: bool = False,
+        layered: bool = False,
     ) -> None: ...
+    @staticmethod
+    def metallic_roughness(
+        base_color: _Color = 1.0,
+        metallic: float = 0.0,
+        roughness: float = 0.5,
+        clearcoat: float = 0.0,
+        clearcoat_roughness: float = 0.0,
+        anisotropy: float = 0.0,
+        anisotropy_rotation: float = 0.0,
+        ior: float = 1.5,
+        specular: float = 1.0,
+        specular_color: _Color = 1.0,
+        emissive: _Color = 0.0,
+        model: Literal["ggx", "kurt"] = "ggx",
+        name: str = "",
+        double_sided: bool = False,
+    ) -> Material: ...
+    @property
+    def layered(self) -> bool: ...
+    @property
+    def covers(self) -> tuple[tuple[tuple[float, float] | None, bool], ...] | None: ...
     @property
     def diffuse(self) -> tuple[float, float, float]: ...
     @property
@@ -212,7 +234,7 @@ class Scene:
     show_background: bool
     def __init__(self) -> None: ...
     @staticmethod
-    def from_file(path: _Path) -> Scene: ...
+    def from_file(path: _Path, model: Literal["ggx", "kurt"] = "ggx") -> Scene: ...
     @staticmethod
     def sphere(material: Material) -> Scene: ...
     @staticmethod

@@ -35,11 +35,13 @@ def quantized(texels):
     return np.round(np.asarray(texels) * 255) / 255
 
 
-def write_quad(path, material, images, extensions=(), tangent=(1, 0, 0, 1), node=None, attributes=()):
+def write_quad(
+    path, material, images, extensions=(), tangent=(1, 0, 0, 1), node=None, attributes=(), model="ggx"
+):
     """A square of edge 2 in the plane z = 0, rows of pictures along those of textures.
 
     `tangent` of None leaves TANGENT out; `node` holds the node's transform; `attributes` are more arrays of
-    the corners, from the lower left counter-clockwise: name, glTF type, four rows.
+    the corners, from the lower left counter-clockwise: name, glTF type, four rows; `model` is that of lobes.
     """
     positions = np.float32([[-1, -1, 0], [1, -1, 0], [1, 1, 0], [-1, 1, 0]])
     named = {
@@ -75,7 +77,7 @@ def write_quad(path, material, images, extensions=(), tangent=(1, 0, 0, 1), node
         "textures": [{"source": k, "sampler": 0} for k in range(len(images))],
     }
     path.write_text(json.dumps(document))
-    return burnish.Scene.from_file(path)
+    return burnish.Scene.from_file(path, model)
 
 
 def srgb_to_linear(v):

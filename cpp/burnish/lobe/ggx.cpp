@@ -16,8 +16,8 @@ constexpr double LEAST_COS = 1e-4;
 constexpr double LEAST_HEIGHT = 1e-9;
 constexpr double LEAST_COS_O = 1e-6; ///< of albedos
 /// Nodes of albedos, and of quick ones; azimuths in each quarter.
-constexpr int RADII = 24, FEW_RADII = 16;
-constexpr int AZIMUTHS = 12, FEW_AZIMUTHS = 8;
+constexpr int RADII = 24, FEW_RADII = 20;
+constexpr int AZIMUTHS = 12, FEW_AZIMUTHS = 10;
 /// From one place to the next of a difference, in widths: its square is the error.
 constexpr double DIFFERENCE = 1e-5;
 

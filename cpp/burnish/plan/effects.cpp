@@ -64,6 +64,8 @@ constexpr std::array EFFECTS = {
            [](uint32_t value, const Variant& all) { return has_lobes(all) ? shared::ALPHA_GENERAL : value; }},
     Effect{shared::SPEC_CONSERVES_ENERGY, "energy conservation", "no lobe asks for it", true, true,
            [](const Subject& one) { return uint32_t(conserves_energy(one)); }, on_of_lobes},
+    Effect{shared::SPEC_HAS_LAYERS, "layers", "no material is layered", true, true,
+           [](const Subject& one) { return uint32_t(has_layers(one.material)); }, on_of_lobes},
     Effect{shared::SPEC_HAS_TANGENT, "anisotropy", "every lobe is round", true, true,
            [](const Subject& one) { return uint32_t(is_brushed(one.material)); }, on_of_lobes},
     Effect{shared::SPEC_HAS_COAT, "clear coat", nullptr, true, true,

@@ -51,6 +51,12 @@ bool has_coat_normal(const Material& material) {
                                   has_texture(material, &MetallicRoughness::clearcoat_normal_texture));
 }
 
+bool has_layers(const Material& material) {
+    if (material.covers.empty()) return false;
+    return material.lobes.size() > 1 || has_diffuse(material) ||
+           (has_emissive(material) && material.covers[0].is_over_emission);
+}
+
 bool is_brushed(const Material& material) {
     // A texture may make a lobe narrower than its factors, of which the widest is round however brushed.
     if (is_varying(material)) return material.source->anisotropy > 0.0f && !material.lobes.empty();

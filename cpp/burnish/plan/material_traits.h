@@ -16,6 +16,8 @@ bool has_emissive(const Material& material);
 bool has_coat(const Material& material);
 /// The coat's normal is not the base's: that has a normal map, or the coat has one.
 bool has_coat_normal(const Material& material);
+/// A lobe takes light from something that lies below it.
+bool has_layers(const Material& material);
 /// A lobe reflects differently along tangent and bitangent.
 bool is_brushed(const Material& material);
 /// Tells whether the material looks otherwise under other tangents of its mesh.

@@ -27,6 +27,14 @@ Lobe lobe_of(const Material& material, uint32_t which, const ShadeClass& one) {
     return is_coat(which, one) ? with_weight(lobe, glm::vec3(1.0f)) : lobe;
 }
 
+/// See LobeRecord. A lobe that is not there covers nothing.
+glm::vec4 cover_of(const Material& material, uint32_t which) {
+    if (which >= material.covers.size()) return glm::vec4(0.0f);
+    const Cover& cover = material.covers[which];
+    return glm::vec4(cover.albedo.value_or(glm::vec2(-1.0f, 0.0f)), cover.is_over_emission ? 1.0f : 0.0f,
+                     0.0f);
+}
+
 /// By class: entries of the longest table that it reads without a loop, else 0.
 std::vector<uint32_t> unrolled_counts(const Scene& scene, const Plan& plan, TableWriter& writer) {
     std::vector<uint32_t> counts(plan.classes.size(), 0);
@@ -141,7 +149,8 @@ ShadeTables make_shade_tables(const vulkan::DevicePointer& device, const Scene& 
                 record.table_count = samples.count;
                 counts[instance.shade_class].insert(samples.count);
             }
-            if (plan.sampler.needs_albedo || one.variant[shared::SPEC_CONSERVES_ENERGY]) {
+            if (plan.sampler.needs_albedo || one.variant[shared::SPEC_CONSERVES_ENERGY] ||
+                one.variant[shared::SPEC_HAS_LAYERS]) {
                 const bool is_varying_brushed = is_brushed(material) && !is_coat(which, one);
                 const auto albedo = one.variant[shared::SPEC_HAS_VARYING]
                                         ? writer.varying_albedo(is_varying_brushed, lobe.shape)
@@ -149,6 +158,7 @@ ShadeTables make_shade_tables(const vulkan::DevicePointer& device, const Scene& 
                 record.albedo_begin = albedo.begin;
                 record.albedo_width_nodes = albedo.count;
             }
+            record.cover = cover_of(material, which);
             record.threshold_log = plan.sampler.threshold_log;
             lobes.push_back(record);
         }

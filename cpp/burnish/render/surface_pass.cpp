@@ -55,6 +55,7 @@ shared::SurfaceRecord surface_record(const Material& material, uint32_t texture_
     record.occlusion_strength = source.occlusion_strength;
     record.texture_begin = texture_begin;
     record.clearcoat_normal_scale = source.clearcoat_normal_scale;
+    record.is_layered = source.model == MaterialModel::kurt ? 0.0f : 1.0f;
     return record;
 }
 

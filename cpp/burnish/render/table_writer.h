@@ -28,12 +28,14 @@ public:
     TableWriter(const Plan& plan, TableCache& cache) : plan_(plan), cache_(cache) {}
 
     const SampleTable& table(TableForm form, const LobeShape& shape, uint32_t face_size) {
-        const std::tuple key(form, of_any_colour(shape), face_size);
+        LobeShape plain = of_any_colour(shape);
+        if (form == TableForm::scaled) plain.width_x = plain.width_y = plain.alpha = 0.0f;
+        const std::tuple key(form, plain, face_size);
         auto found = tables_.find(key);
         if (found == tables_.end())
             found = tables_
                         .emplace(key, form == TableForm::scaled
-                                          ? build_scaled_table(plan_.settings.sampler, face_size)
+                                          ? build_scaled_table(plan_.settings.sampler, shape, face_size)
                                           : build_sample_table(plan_.settings.sampler, shape, face_size))
                         .first;
         return found->second;

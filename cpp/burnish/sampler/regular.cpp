@@ -12,8 +12,6 @@ namespace burnish {
 namespace {
 
 constexpr double PI = std::numbers::pi;
-/// The pattern of scaled tables is placed at this slope.
-constexpr float SCALED_ROUGHNESS = 0.3f;
 
 /// Texel factor of a pattern of `count` samples before the view terms (maths: section 4); see SampleTable for
 /// hz.

@@ -27,6 +27,9 @@ struct SampleTable {
     std::vector<glm::vec4> entries;
 };
 
+/// The pattern of scaled tables is placed at this width.
+constexpr float SCALED_ROUGHNESS = 0.3f;
+
 /// A pattern in the plane of a lobe, in units of its widths.
 struct PlanePoints {
     std::vector<glm::dvec2> places;

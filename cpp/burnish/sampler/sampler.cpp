@@ -33,7 +33,12 @@ SampleTable build_sample_table(const Sampler& sampler, const LobeShape& shape, u
         sampler);
 }
 
-SampleTable build_scaled_table(const Sampler& sampler, uint32_t face_size) {
+SampleTable build_scaled_table(const Sampler& sampler, LobeShape shape, uint32_t face_size) {
+    // Places of a plane are in units of its widths already.
+    if (!shape.model->has_fixed_half_vectors) {
+        shape.width_x = shape.width_y = SCALED_ROUGHNESS;
+        return build_sample_table(sampler, shape, face_size);
+    }
     return std::visit(
         [&]<typename Kind>(const Kind& one) {
             if constexpr (Pattern<Kind>)

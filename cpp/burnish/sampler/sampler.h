@@ -17,10 +17,10 @@ using Sampler = std::variant<Regular, Importance, Matched, Prefiltered, Referenc
 void validate(const Sampler& sampler);
 SamplerFacts facts(const Sampler& sampler);
 
-/// The table of a lobe, or one that scales with a roughness; `face_size` is that of the map
-/// it looks up. Of samplers that place a pattern; others have none.
+/// The table of a lobe, or one that scales with its widths; `face_size` is that of the map it looks up. Of
+/// samplers that place a pattern; others have none.
 SampleTable build_sample_table(const Sampler& sampler, const LobeShape& shape, uint32_t face_size);
-SampleTable build_scaled_table(const Sampler& sampler, uint32_t face_size);
+SampleTable build_scaled_table(const Sampler& sampler, LobeShape shape, uint32_t face_size);
 
 /// Settings of the truth; throws std::bad_variant_access for another sampler.
 const Reference& reference_of(const Sampler& sampler);

@@ -36,6 +36,11 @@ bool has_coverage(const Material& material) {
     return material.alpha_mode == AlphaMode::opaque || most >= coverage_cutoff(material);
 }
 
+void make_layers(Material& material) {
+    material.covers.assign(material.lobes.size(), Cover{});
+    if (!material.covers.empty()) material.covers[0].is_over_emission = false;
+}
+
 void validate(const Material& material) {
     require_unit("diffuse", material.diffuse);
     require_non_negative("emissive", material.emissive);
@@ -45,6 +50,9 @@ void validate(const Material& material) {
     if (material.lobes.size() > MAX_LOBES)
         throw std::invalid_argument(
             message("lobes: expected at most ", MAX_LOBES, ", got ", material.lobes.size()));
+    if (!material.covers.empty() && material.covers.size() != material.lobes.size())
+        throw std::invalid_argument(message("covers: expected one a lobe, ", material.lobes.size(), ", got ",
+                                            material.covers.size()));
     for (size_t i = 0; i < material.lobes.size(); ++i)
         validate(material.lobes[i], message("lobes[", i, "]."));
     if (material.source) validate(*material.source);

@@ -17,8 +17,15 @@ constexpr uint32_t MAX_LOBES = 4;
 
 enum class AlphaMode { opaque, mask, blend };
 
+/// Which lobes a metallic-roughness description becomes.
+enum class MaterialModel {
+    ggx, ///< GGX lobes in layers, as glTF means it
+    kurt ///< Kurt's lobes that add up
+};
+
 /// The glTF description a material came from, kept for what varies over the surface.
 struct MetallicRoughness {
+    MaterialModel model = MaterialModel::ggx;
     glm::vec4 base_color{1.0f}; ///< linear RGB and coverage
     float metallic = 1.0f;
     float roughness = 1.0f; ///< perceptual, in [0, 1]; slope m = max(roughness^2, MIN_ROUGHNESS)
@@ -48,10 +55,20 @@ struct MetallicRoughness {
     TextureUse clearcoat_normal_texture;    ///< linear; without it the coat has the mesh's normal
 };
 
+/// What a lobe takes of the light on its way to what lies below it.
+struct Cover {
+    /// So much of its albedo's E1 and Es (albedo_table.h); none: the most of a channel that it reflects.
+    std::optional<glm::vec2> albedo;
+    bool is_over_emission = true;
+};
+
 struct Material {
     std::string name;
     glm::vec3 diffuse{0.0f}; ///< diffuse reflectance kd, in [0, 1]
     std::vector<Lobe> lobes;
+    /// Of every lobe where they are layers, each over those before it and over the diffuse part: what it
+    /// reflects does not reach what lies below. Empty where lobes add up.
+    std::vector<Cover> covers;
     glm::vec3 emissive{0.0f}; ///< radiance, >= 0, KHR_materials_emissive_strength multiplied in
     AlphaMode alpha_mode = AlphaMode::opaque;
     float alpha_cutoff = 0.5f; ///< >= 0; above 1 nothing shows
@@ -71,11 +88,16 @@ bool has_coverage(const Material& material);
 /// range.
 void validate(const Material& material);
 
+/// Makes layers of the lobes: the emission is the lowest one's surface's.
+void make_layers(Material& material);
+
 /// The stated mapping from metallic-roughness factors to diffuse + lobes; fills both from `material.source`.
-///   m = max(roughness^2, MIN_ROUGHNESS), f0 = min(((ior-1)/(ior+1))^2 specular_color, 1), alpha = 0.5,
-///   conserve_energy, base lobe: r0 = mix(specular f0, base, metallic), white at grazing scaled by
-///   mix(specular, 1, metallic); diffuse = base (1 - metallic) (1 - max(specular f0)); anisotropy: m_x =
-///   mix(m, 1, strength^2), m_y = m; clearcoat: a lobe of r0 .04 and weight = factor on top.
+///   m = max(roughness^2, MIN_ROUGHNESS), f0 = min(((ior-1)/(ior+1))^2 specular_color, 1); base lobe:
+///   mix(specular f0, base, metallic) along the normal, white at grazing scaled by mix(specular, 1,
+///   metallic); anisotropy: m_x = mix(m, 1, strength^2), m_y = m; clearcoat: a lobe of r0 .04 and weight =
+///   factor on top.
+///   ggx: alpha = m; layered, diffuse = base (1 - metallic), below the dielectric's part of the base lobe.
+///   kurt: slopes m, alpha = 0.5, conserve_energy; diffuse = base (1 - metallic) (1 - max(specular f0)).
 void map_metallic_roughness(Material& material);
 
 } // namespace burnish

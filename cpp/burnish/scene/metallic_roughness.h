@@ -1,4 +1,4 @@
-// Metallic-roughness to diffuse + Kurt lobe on plain values. glsl/lib/metallic_roughness.glsl holds the same
+// Metallic-roughness to diffuse + lobe on plain values. glsl/lib/metallic_roughness.glsl holds the same
 // function.
 #pragma once
 
@@ -22,6 +22,8 @@ struct MappedSurface {
     glm::vec3 diffuse{0.0f};
     glm::vec3 r0{0.0f};
     float weight = 0.0f; ///< 0: no lobe
+    /// The most of a channel that a dielectric reflects along the normal.
+    float dielectric = 0.0f;
     glm::vec2 roughness{1.0f};
 };
 

@@ -63,6 +63,6 @@ struct Scene {
 void validate(const Scene& scene);
 
 /// glTF 2.0 (.gltf, .glb). Throws FileError.
-Scene load_gltf(const std::string& path);
+Scene load_gltf(const std::string& path, MaterialModel model = MaterialModel::ggx);
 
 } // namespace burnish

@@ -51,7 +51,7 @@ class Means:
 
 
 def linear_place(omega_o: Array, lobe: LobeLike) -> Place:
-    """Over the lobe itself, along the principal axes of `lobe_map`; of other densities as `weighted_place`."""
+    """Over the lobe itself along the principal axes of `lobe_map`; of other densities `weighted_place`."""
     mx, my = slopes(lobe)
     if model_of(lobe).DENSITY != "gaussian":
         return weighted_place(omega_o, lobe)

@@ -22,8 +22,8 @@ STUDENT_STEP = 3
 STUDENT_WINDOWS = (math.inf, 2.7, 1.4)
 #: Of Student's density, what they leave.
 STUDENT_SHARES = (1.0, 0.8406213, 0.6614072)
-#: Widths up to which lobes take the first windows.
-STUDENT_WIDTHS = (0.25, 0.4)
+#: Widths up to which lobes take the first windows, as float32 has them.
+STUDENT_WIDTHS = (0.25, float(np.float32(0.4)))
 #: Where `fit_matched` writes them.
 TABLE_PATH = Path(__file__).parent.parent / "tables" / "matched.txt"
 STUDENT_PATH = TABLE_PATH.with_name("student.txt")

@@ -6,11 +6,13 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from .albedo import blend_albedo
 from .arrays import Array, as_array, dot
 from .cube_map import PaddedCube, pad_cube
 from .estimator import local_frame, shade_importance, shade_regular
 from .importance import importance_half_vectors
 from .irradiance import DiffuseForm, diffuse_light
+from .lobe.base import grazing_reflectance
 from .lobe.models import model_of
 from .matched import MatchedMap, Placement, read_matched, shade_matched
 from .plane import shade_plane
@@ -26,6 +28,47 @@ def conserving_scale(normals: Array, tangents: Array, views: Array, lobe: Any) -
     omega_o = local_frame(normals, tangents, views, lobe.rotation).omega_o
     albedo: Array = model_of(lobe).albedo(omega_o, lobe)[..., :1]
     return 1.0 / np.maximum(albedo, 1.0)
+
+
+def lobe_through(normals: Array, tangents: Array, views: Array, lobe: Any, share: Any) -> Array:
+    """What a layer lets through of light from below, (..., 1): 1 - (a E_1 + b E_s), or 1 - max(E)."""
+    omega_o = local_frame(normals, tangents, views, lobe.rotation).omega_o
+    parts: Array = model_of(lobe).albedo(omega_o, lobe)
+    if share is None:
+        reflected = as_array(lobe.weight) * blend_albedo(parts, lobe.r0, grazing_reflectance(lobe))
+        taken = np.max(reflected, axis=-1, keepdims=True)
+    else:
+        taken = (parts @ as_array(share))[..., None]
+    taken = taken * conserving_scale(normals, tangents, views, lobe)
+    return 1 - np.clip(taken, 0, 1)
+
+
+def add_layers(
+    material: Any,
+    lobes: Sequence[Array],
+    below: Array,
+    normals: Array,
+    tangents: Array,
+    views: Array,
+    *,
+    has_emission: bool = True,
+) -> Array:
+    """Sum of the light of the diffuse part (`below`), of lobes and of emission, (..., 3).
+
+    Where a material has covers each lobe is a layer over those before it: they and the diffuse part are
+    multiplied by what it lets through.
+    """
+    emissive = as_array(getattr(material, "emissive", 0.0)) if has_emission else np.zeros(3)
+    total, shining = below, np.broadcast_to(emissive, below.shape)
+    covers = getattr(material, "covers", None)
+    for k, (lobe, light) in enumerate(zip(material.lobes, lobes, strict=True)):
+        if covers is not None:
+            share, is_over_emission = covers[k]
+            through = lobe_through(normals, tangents, views, lobe, share)
+            total = total * through
+            shining = shining * through if is_over_emission else shining
+        total = total + light
+    return total + shining
 
 
 def diffuse_form(sampler: Any) -> DiffuseForm | None:
@@ -52,6 +95,19 @@ def shade_lobe(
     raise ValueError(f"sampler: expected Regular, Importance, Matched or Reference, got {name}")
 
 
+def _matched_lights(
+    light_map: MatchedMap,
+    material: Any,
+    samples: int,
+    frame: tuple[Array, Array, Array],
+    placement: Placement | None,
+) -> list[Array]:
+    return [
+        shade_matched(light_map, *frame, lobe, samples, placement) * conserving_scale(*frame, lobe)
+        for lobe in material.lobes
+    ]
+
+
 def shade_matched_lobes(
     light_map: MatchedMap,
     material: Any,
@@ -62,11 +118,9 @@ def shade_matched_lobes(
     placement: Placement | None = None,
 ) -> Array:
     """Radiance of all lobes of a material from a map that has been read for `matched`, (..., 3)."""
-    total = np.zeros(normals.shape)
-    for lobe in material.lobes:
-        light = shade_matched(light_map, normals, tangents, views, lobe, samples, placement)
-        total = total + light * conserving_scale(normals, tangents, views, lobe)
-    return total
+    frame = (normals, tangents, views)
+    lights = _matched_lights(light_map, material, samples, frame, placement)
+    return add_layers(material, lights, np.zeros(normals.shape), *frame, has_emission=False)
 
 
 def shade(
@@ -97,25 +151,26 @@ def shade(
     normals, tangents, views = as_array(normals), as_array(tangents), as_array(views)
     shape = np.broadcast_shapes(normals.shape[:-1], tangents.shape[:-1], views.shape[:-1])
     normals, tangents, views = (np.broadcast_to(v, (*shape, v.shape[-1])) for v in (normals, tangents, views))
-    total = np.zeros(normals.shape)
+    frame = (normals, tangents, views)
+    below = np.zeros(normals.shape)
     if np.any(as_array(material.diffuse) > 0):
         light = diffuse_light(env_levels[0], normals, diffuse_form(sampler))
-        total = total + as_array(material.diffuse) * light
-    if type(sampler).__name__ == "Reference":
-        for lobe in material.lobes:
-            light = shade_reference(env_levels[0], normals, tangents, views, lobe)
-            total = total + light * conserving_scale(normals, tangents, views, lobe)
-    elif material.lobes and type(sampler).__name__ == "Matched":
+        below = as_array(material.diffuse) * light
+    name = type(sampler).__name__
+    if name == "Reference":
+        lights = [
+            shade_reference(env_levels[0], *frame, lobe) * conserving_scale(*frame, lobe)
+            for lobe in material.lobes
+        ]
+    elif material.lobes and name == "Matched":
         light_map = read_matched(env_levels, sampler)
         placement = getattr(sampler, "placement", None)
-        total = total + shade_matched_lobes(
-            light_map, material, sampler.samples, normals, tangents, views, placement
-        )
-    elif material.lobes:
+        lights = _matched_lights(light_map, material, sampler.samples, frame, placement)
+    else:
         cube = pad_cube(env_levels)
-        shade_one = shade_prefiltered if type(sampler).__name__ == "Prefiltered" else shade_lobe
-        for lobe in material.lobes:
-            light = shade_one(cube, normals, tangents, views, lobe, sampler)
-            total = total + light * conserving_scale(normals, tangents, views, lobe)
+        shade_one = shade_prefiltered if name == "Prefiltered" else shade_lobe
+        lights = [
+            shade_one(cube, *frame, lobe, sampler) * conserving_scale(*frame, lobe) for lobe in material.lobes
+        ]
     seen = dot(normals, views)[..., None] > 0
-    return np.where(seen, total + as_array(getattr(material, "emissive", 0.0)), 0.0)
+    return np.where(seen, add_layers(material, lights, below, *frame), 0.0)

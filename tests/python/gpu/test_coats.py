@@ -7,6 +7,7 @@ import burnish
 from burnish.oracle.frame import facing_normal
 from burnish.oracle.matched import Matched
 from burnish.oracle.metallic_roughness import Material, MetallicRoughness, map_metallic_roughness
+from burnish.oracle.shading import lobe_through
 from burnish.oracle.shading import shade as oracle_shade
 from burnish.oracle.tangent_space import mapped_normal
 from engine_support import unit
@@ -44,16 +45,19 @@ def coat_lobe(weight, perceptual):
 
 
 def expected_color(device, environment, sampler, view, layers):
-    """Sum of (material, normal) pairs."""
+    """Layers of (material, normal) pairs, from the lowest up."""
     levels = levels_of(device, environment, sampler)
     if isinstance(sampler, burnish.Matched):
         # Of textured materials, samples are placed at every point.
         sampler = Matched(sampler.samples, placement="wide point")
-    parts = []
+    total = np.zeros(3)
     for material, normal in layers:
         tangent = [normal[2], 0.0, -normal[0]]  # round lobes lie in the frame along growing longitude
-        parts.append(oracle_shade(levels, material, sampler, normal, tangent, view))
-    return np.sum(parts, axis=0)
+        if material is not layers[0][0]:
+            frame = (np.asarray(v, float) for v in (normal, tangent, view))
+            total = total * lobe_through(*frame, material.lobes[0], None)
+        total = total + oracle_shade(levels, material, sampler, normal, tangent, view)
+    return total
 
 
 def assert_shows(device, environment, scene, sampler, view, layers):
@@ -128,7 +132,7 @@ def test_coat_shows_over_a_base_without_specular(device, smooth64, sampler, view
     extensions = {"KHR_materials_specular": {"specularFactor": 0.0}}
     texture = {"occlusionTexture": {"index": 0}}
     scene = coated_square(tmp_path, [np.ones(3)], pbrMetallicRoughness=pbr, extensions=extensions, **texture)
-    layer = Material(np.array([0.3, 0.5, 0.7]), COAT_LAYER.lobes)
+    layer = Material(np.array([0.3, 0.5, 0.7]), COAT_LAYER.lobes, covers=((None, True),))
     frame = assert_shows(device, smooth64, scene, sampler, view, [(layer, UP)])
     assert is_on(frame, "lobe") and not is_on(frame, "lobe 2")
 

@@ -51,7 +51,7 @@ def test_published_lobe_is_left_as_it_is(device):
 
 
 def test_mapped_materials_conserve_energy(tmp_path):
-    scene = burnish.Scene.from_file(_write_metal(tmp_path))
+    scene = burnish.Scene.from_file(_write_metal(tmp_path), "kurt")
     assert [lobe.conserve_energy for lobe in scene.materials[0].lobes] == [True]
 
 

@@ -12,6 +12,7 @@ import pytest
 import burnish
 from burnish.environments import cube_directions
 from burnish.oracle.metallic_roughness import Material, MetallicRoughness, map_metallic_roughness
+from burnish.oracle.shading import lobe_through
 from burnish.oracle.shading import shade as oracle_shade
 from engine_support import HARDWARE_WEIGHTS, unit
 from gltf_support import NEAREST, GltfFile
@@ -121,8 +122,10 @@ def srgb_to_linear(v):
     return np.where(v <= 0.04045, v / 12.92, ((v + 0.055) / 1.055) ** 2.4)
 
 
-def expected_picture(features, pictures, coat):
-    """Colour (PIXELS, PIXELS, 3) and whether something shows; `coat` is what the coat adds seen face on."""
+def expected_picture(features, pictures, coat, through):
+    """Colour (PIXELS, PIXELS, 3) and whether something shows; `coat` is what the coat adds seen face on,
+    `through` what it leaves of what lies below.
+    """
     matrix = placement(features)
     centers = (2 * np.arange(PIXELS) + 1) / PIXELS - 1
     x, y = np.meshgrid(centers, -centers)
@@ -157,7 +160,7 @@ def expected_picture(features, pictures, coat):
     if "emission" in features:
         color = color + EMITTED
     if "coat" in features:
-        color = color + coat
+        color = color * through + coat
     return color, shows
 
 
@@ -176,7 +179,9 @@ def test_pair_of_features_has_its_closed_form(device, environment, pictures, fea
     levels = environment.pyramid(device=device)
     # The coat lies on the square itself, whatever the normal map beneath it does.
     added = oracle_shade(levels, coat, sampler, face_on, np.array([1.0, 0.0, 0.0]), face_on)
-    expected, shows = expected_picture(features, pictures, added)
+    frame_of_view = (face_on, np.array([1.0, 0.0, 0.0]), face_on)
+    through = lobe_through(*frame_of_view, coat.lobes[0], None)
+    expected, shows = expected_picture(features, pictures, added, through)
     np.testing.assert_array_equal(frame.alpha, shows)
     assert 0 < shows.sum() and ("mask" in features) == (not shows.all())
     limit = LIMIT + (0.0 if device.is_software else HARDWARE_WEIGHTS)

@@ -1,10 +1,12 @@
 """Textures of a small glTF against the mapping evaluated in numpy, texel by texel."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 import burnish
-from burnish.oracle.metallic_roughness import Material, MetallicRoughness, map_metallic_roughness
+from burnish.oracle.metallic_roughness import MetallicRoughness, map_metallic_roughness
 from engine_support import unit
 from textured_quad import (
     ALBEDO_LIMIT,
@@ -92,7 +94,7 @@ def test_emissive_texture_and_strength_are_added(device, smooth64, rng, tmp_path
     emitted = 12.0 * srgb_to_linear(texels) * [1.0, 0.5, 0.25]
 
     def glowing(row, column):
-        return Material(base.diffuse, base.lobes, emitted[row, column])
+        return replace(base, emissive=emitted[row, column])
 
     assert_close(device, got, expected_colors(device, smooth64, glowing))
     assert is_on(frame, "emissive texture")

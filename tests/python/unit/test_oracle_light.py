@@ -104,8 +104,20 @@ def test_blend_is_linear_in_r0():
     np.testing.assert_allclose(blend_albedo([0.8, 0.1], (0.0, 0.5, 1.0)), [0.1, 0.45, 0.8])
 
 
-def test_dielectric_maps_to_diffuse_and_a_white_grazing_lobe():
+def test_dielectric_lies_over_its_diffuse_part():
     material = map_metallic_roughness(MetallicRoughness((0.8, 0.4, 0.2), metallic=0, roughness=0.5))
+    (lobe,) = material.lobes
+    assert lobe.roughness == (0.25, 0.25) and lobe.f90 == 1.0 and lobe.weight == (1, 1, 1)
+    np.testing.assert_allclose(lobe.r0, 0.04)
+    np.testing.assert_allclose(material.diffuse, [0.8, 0.4, 0.2])
+    ((share, is_over_emission),) = material.covers
+    np.testing.assert_allclose(share, (0.04, 0.96))
+    assert not is_over_emission
+
+
+def test_dielectric_maps_to_diffuse_and_a_white_grazing_lobe():
+    source = MetallicRoughness((0.8, 0.4, 0.2), metallic=0, roughness=0.5)
+    material = map_metallic_roughness(source, model="kurt")
     (lobe,) = material.lobes
     assert lobe.roughness == (0.25, 0.25) and lobe.alpha == 0.5 and lobe.weight == (1, 1, 1)
     np.testing.assert_allclose(lobe.r0, 0.04)
@@ -125,13 +137,16 @@ def test_specular_scales_normal_and_grazing_reflection():
     (lobe,) = map_metallic_roughness(source).lobes
     np.testing.assert_allclose(lobe.weight, 0.5)
     np.testing.assert_allclose(np.multiply(lobe.weight, lobe.r0), [0.02, 0.01, 0.5])
-    np.testing.assert_allclose(map_metallic_roughness(source).diffuse, 0.5 * (1 - 0.5))
+    np.testing.assert_allclose(map_metallic_roughness(source, model="kurt").diffuse, 0.5 * (1 - 0.5))
+    assert map_metallic_roughness(source).covers == (((0.5, 0.0), False),)
     assert map_metallic_roughness(MetallicRoughness(0.5, metallic=0, specular=0)).lobes == []
 
 
 def test_anisotropy_and_clearcoat():
     source = MetallicRoughness(1.0, roughness=0.4, anisotropy=0.5, anisotropy_rotation=0.3, clearcoat=0.7)
-    base, coat = map_metallic_roughness(source).lobes
+    material = map_metallic_roughness(source)
+    base, coat = material.lobes
+    assert material.covers[1] == (None, True)
     np.testing.assert_allclose(base.roughness, (0.16 * 0.75 + 0.25, 0.16))
     assert base.rotation == 0.3
     assert coat.roughness == (1e-3, 1e-3) and coat.r0 == 0.04 and coat.weight == (0.7,) * 3

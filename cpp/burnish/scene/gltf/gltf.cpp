@@ -17,8 +17,8 @@ constexpr size_t MAX_WARNINGS = 200;
 
 class SceneBuilder {
 public:
-    SceneBuilder(const Document& document, Scene& scene)
-        : document_(document), scene_(scene), reader_(document), materials_(document, reader_, scene),
+    SceneBuilder(const Document& document, MaterialModel model, Scene& scene)
+        : document_(document), scene_(scene), reader_(document), materials_(document, reader_, model, scene),
           nodes_(document) {}
 
     void build() {
@@ -177,7 +177,7 @@ void tidy_warnings(std::vector<std::string>& warnings) {
     warnings = std::move(kept);
 }
 
-Scene load(const std::string& path) {
+Scene load(const std::string& path, MaterialModel model) {
     Container container = read_container(path);
     Document document = parse_document(path, container.json);
     container.json = {};
@@ -185,7 +185,7 @@ Scene load(const std::string& path) {
     Scene scene;
     scene.warnings = document.warnings;
     scene.ignored_extensions = document.ignored_extensions;
-    SceneBuilder(document, scene).build();
+    SceneBuilder(document, model, scene).build();
     if (scene.name.empty()) scene.name = std::filesystem::path(path).stem().string();
     tidy_warnings(scene.warnings);
     validate(scene);
@@ -195,10 +195,10 @@ Scene load(const std::string& path) {
 } // namespace
 } // namespace gltf
 
-Scene load_gltf(const std::string& path) {
+Scene load_gltf(const std::string& path, MaterialModel model) {
     // One door: whatever a broken file trips over, the caller sees the path and a sentence.
     try {
-        return gltf::load(path);
+        return gltf::load(path, model);
     } catch (const FileError&) {
         throw;
     } catch (const std::bad_alloc&) {

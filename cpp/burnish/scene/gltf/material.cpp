@@ -194,6 +194,7 @@ Material MaterialLoader::convert(const tinygltf::Material& from, const std::stri
     Material material;
     material.name = from.name;
     MetallicRoughness source;
+    source.model = model_;
     const tinygltf::PbrMetallicRoughness& pbr = from.pbrMetallicRoughness;
     source.base_color = glm::vec4(bounded(pbr.baseColorFactor, 1.0f, where + ".baseColorFactor"),
                                   bounded(pbr.baseColorFactor[3], 0.0f, 1.0f, where + ".baseColorFactor"));

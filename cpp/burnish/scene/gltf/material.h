@@ -10,8 +10,8 @@ namespace burnish::gltf {
 
 class MaterialLoader {
 public:
-    MaterialLoader(const Document& document, const AccessorReader& reader, Scene& scene)
-        : document_(document), reader_(reader), scene_(scene) {}
+    MaterialLoader(const Document& document, const AccessorReader& reader, MaterialModel model, Scene& scene)
+        : document_(document), reader_(reader), model_(model), scene_(scene) {}
 
     /// Appends all materials of the file to the scene, in its order.
     void load();
@@ -35,6 +35,7 @@ private:
 
     const Document& document_;
     const AccessorReader& reader_;
+    MaterialModel model_;
     Scene& scene_;
     std::map<int, int32_t> images_; ///< file's image to scene's, -1 where it cannot be used
     uint64_t texels_ = 0;           ///< decoded so far
