@@ -178,6 +178,9 @@ def effect_scenes(folder: Path, environment: Environment) -> Iterator[Row]:
     }
     for name, (zero, present) in rows.items():
         yield name, ("shade",), (plain, zero, present), once
+    # Beside a diffuse part that is not covered.
+    layers = [_lobes(environment, lobe, diffuse=d, layered=k > 0) for k, d in enumerate((0.5, TRACE, 0.5))]
+    yield "layers", ("shade",), (layers[0], layers[1], layers[2]), once
     yield "accumulation", ("wall",), (plain, plain, plain), (1, 2, 4)
     yield from _texture_rows(folder, environment)
     yield from _mask_and_unlit_rows(folder, environment)
