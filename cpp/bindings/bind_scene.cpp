@@ -102,12 +102,13 @@ void bind_scene(py::module_& m) {
         .def(py::init<>())
         .def_static(
             "from_file",
-            [](const std::filesystem::path& path, const std::string& model) {
+            [](const std::filesystem::path& path, const std::string& model, bool leave_out_idle) {
                 const MaterialModel chosen = material_model_of(model);
                 const Released release;
-                return std::make_shared<Scene>(load_gltf(path.string(), chosen));
+                return std::make_shared<Scene>(load_gltf(path.string(), chosen, leave_out_idle));
             },
-            py::arg("path"), py::arg("model") = "ggx", R"(Read a glTF 2.0 file.
+            py::arg("path"), py::arg("model") = "ggx", py::arg("leave_out_idle") = true,
+            R"(Read a glTF 2.0 file.
 
 Parameters
 ----------
@@ -116,6 +117,9 @@ path : str or os.PathLike
 model : str
     Lobes that its materials become: "ggx", in layers as glTF means it, or "kurt", Kurt's lobes that add up; see
     `Material.metallic_roughness`.
+leave_out_idle : bool
+    Leave out what changes no pixel: textures of one value become factors, flat normal maps and white vertex
+    colours go; `Material.left_out` and reports say which. Without it they are drawn, at their price.
 
 Returns
 -------

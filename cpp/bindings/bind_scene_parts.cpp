@@ -1,4 +1,5 @@
 // Material and Camera: values that do not change once made, so that no copy can go stale unseen.
+#include "burnish/scene/idle_parts.h"
 #include "burnish/scene/scene.h"
 #include "scene_values.h"
 
@@ -15,6 +16,7 @@ Material make_material(const Color& diffuse, std::vector<Lobe> lobes, const Colo
     material.double_sided = double_sided;
     if (layered) make_layers(material);
     validate(material);
+    leave_out_idle_lobes(material);
     return material;
 }
 
@@ -106,7 +108,7 @@ Parameters
 diffuse : float or (float, float, float)
     Diffuse reflectance, in 0..1.
 lobes : list of KurtLobe or GgxLobe
-    At most four.
+    At most four. One that reflects nothing is left out.
 emissive : float or (float, float, float)
     Radiance given off, >= 0.
 name : str
@@ -168,6 +170,10 @@ Raises
 ------
 ValueError
     If a number is out of its range, or there is no such model.)")
+        .def_readonly(
+            "left_out", &Material::left_out,
+            "List of str: parts that change no pixel and are not drawn, and why: lobes that reflect "
+            "nothing, textures of one value, flat normal maps, white vertex colours.")
         .def_property_readonly(
             "layered", [](const Material& x) { return !x.covers.empty(); },
             "Whether lobes take light from what lies below them.")

@@ -228,10 +228,10 @@ TEST_F(Gltf, ReadsMaterialsAndTheirExtensions) {
     EXPECT_EQ(material.alpha_cutoff, 0.25f);
     EXPECT_TRUE(material.double_sided);
     ASSERT_EQ(material.lobes.size(), 2u);
-    EXPECT_EQ(std::get<KurtLobe>(material.lobes[0]).rotation, 1.0f);
-    EXPECT_NEAR(std::get<KurtLobe>(material.lobes[0]).roughness.x, 0.25f, 1e-3f);
-    EXPECT_EQ(std::get<KurtLobe>(material.lobes[0]).roughness.y, MIN_ROUGHNESS);
-    EXPECT_NEAR(std::get<KurtLobe>(material.lobes[0]).r0.x * std::get<KurtLobe>(material.lobes[0]).weight.x,
+    EXPECT_EQ(std::get<GgxLobe>(material.lobes[0]).rotation, 1.0f);
+    EXPECT_NEAR(std::get<GgxLobe>(material.lobes[0]).roughness.x, 0.25f, 1e-3f);
+    EXPECT_EQ(std::get<GgxLobe>(material.lobes[0]).roughness.y, MIN_ROUGHNESS);
+    EXPECT_NEAR(std::get<GgxLobe>(material.lobes[0]).r0.x * std::get<GgxLobe>(material.lobes[0]).weight.x,
                 0.5f / 9.0f, 1e-6f);
     EXPECT_EQ(material.source->base_color.w, 0.75f);
     EXPECT_EQ(scene.ignored_extensions, (std::vector<std::string>{"KHR_materials_sheen", "VENDOR_x"}));

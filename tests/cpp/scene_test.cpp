@@ -37,7 +37,8 @@ TEST(Material, MetalKeepsItsColorAndPlasticItsDiffuse) {
     MappedSurface plastic =
         map_metallic_roughness({.base = glm::vec3(0.5f), .metallic = 0.0f, .roughness = 0.0f});
     EXPECT_NEAR(plastic.r0.x, 0.04f, 1e-6f);
-    EXPECT_NEAR(plastic.diffuse.x, 0.48f, 1e-6f);
+    EXPECT_EQ(plastic.diffuse.x, 0.5f);
+    EXPECT_NEAR(plastic.dielectric, 0.04f, 1e-6f);
     EXPECT_EQ(plastic.roughness.x, MIN_ROUGHNESS);
 }
 
@@ -48,7 +49,7 @@ TEST(Material, SpecularScalesBothEndsOfFresnel) {
     EXPECT_NEAR(half.weight * half.r0.x, 0.02f, 1e-6f); // specular * 0.04
     EXPECT_NEAR(half.weight * half.r0.y, 0.04f, 1e-6f);
     EXPECT_NEAR(half.r0.z, 1.0f, 1e-6f); // clamped
-    EXPECT_NEAR(half.diffuse.x, 0.5f, 1e-6f);
+    EXPECT_NEAR(half.dielectric, 0.5f, 1e-6f);
     EXPECT_EQ(map_metallic_roughness({.metallic = 0.0f, .specular = 0.0f}).weight, 0.0f);
     EXPECT_NEAR(map_metallic_roughness({.metallic = 0.0f, .ior = 0.0f}).r0.x, 1.0f,
                 1e-6f); // KHR_materials_ior
@@ -64,10 +65,27 @@ TEST(Material, ClearcoatIsALobeOnTop) {
     material.source->clearcoat_roughness = 0.1f;
     map_metallic_roughness(material);
     ASSERT_EQ(material.lobes.size(), 2u);
-    EXPECT_EQ(std::get<KurtLobe>(material.lobes[1]).weight, glm::vec3(0.5f));
-    EXPECT_EQ(std::get<KurtLobe>(material.lobes[1]).r0, glm::vec3(0.04f));
-    EXPECT_NEAR(std::get<KurtLobe>(material.lobes[1]).roughness.x, 0.01f, 1e-6f);
+    EXPECT_EQ(std::get<GgxLobe>(material.lobes[1]).weight, glm::vec3(0.5f));
+    EXPECT_EQ(std::get<GgxLobe>(material.lobes[1]).r0, glm::vec3(0.04f));
+    EXPECT_NEAR(std::get<GgxLobe>(material.lobes[1]).roughness.x, 0.01f, 1e-6f);
+    ASSERT_EQ(material.covers.size(), 2u);
+    EXPECT_FALSE(material.covers[0].is_over_emission);
+    EXPECT_TRUE(material.covers[1].is_over_emission && !material.covers[1].albedo);
     validate(material);
+    material.covers.pop_back();
+    EXPECT_EQ(message_of([&] { validate(material); }), "covers: expected one a lobe, 2, got 1");
+}
+
+TEST(Material, KurtsMappingAddsUp) {
+    Material material;
+    material.source = MetallicRoughness{};
+    material.source->model = MaterialModel::kurt;
+    material.source->metallic = 0.0f;
+    material.source->base_color = glm::vec4(0.5f, 0.5f, 0.5f, 1.0f);
+    map_metallic_roughness(material);
+    EXPECT_EQ(std::get<KurtLobe>(material.lobes.at(0)).alpha, 0.5f);
+    EXPECT_NEAR(material.diffuse.x, 0.48f, 1e-6f);
+    EXPECT_TRUE(material.covers.empty());
 }
 
 TEST(Camera, LooksAtItsTarget) {

@@ -36,12 +36,21 @@ def quantized(texels):
 
 
 def write_quad(
-    path, material, images, extensions=(), tangent=(1, 0, 0, 1), node=None, attributes=(), model="ggx"
+    path,
+    material,
+    images,
+    extensions=(),
+    tangent=(1, 0, 0, 1),
+    node=None,
+    attributes=(),
+    model="ggx",
+    leave_out_idle=False,
 ):
     """A square of edge 2 in the plane z = 0, rows of pictures along those of textures.
 
     `tangent` of None leaves TANGENT out; `node` holds the node's transform; `attributes` are more arrays of
     the corners, from the lower left counter-clockwise: name, glTF type, four rows; `model` is that of lobes.
+    Textures of one value stay, unless they are asked to be left out.
     """
     positions = np.float32([[-1, -1, 0], [1, -1, 0], [1, 1, 0], [-1, 1, 0]])
     named = {
@@ -77,7 +86,7 @@ def write_quad(
         "textures": [{"source": k, "sampler": 0} for k in range(len(images))],
     }
     path.write_text(json.dumps(document))
-    return burnish.Scene.from_file(path, model)
+    return burnish.Scene.from_file(path, model, leave_out_idle=leave_out_idle)
 
 
 def srgb_to_linear(v):

@@ -181,6 +181,11 @@ void add_effect_lines(const Scene& scene, Plan& plan) {
                             : plan.settings.spp > 1
                                 ? "after accumulation: the mean is stored as 8-bit sRGB"
                                 : "fused into the store: 8-bit sRGB, nothing else needs linear radiance"});
+    for (const Material& material : scene.materials)
+        for (const std::string& part : material.left_out)
+            plan.effects.push_back(
+                {"part without effect", false,
+                 message(material.name.empty() ? "a material" : material.name, ": left out, as ", part)});
     plan.effects.push_back(
         {"accumulation", plan.settings.spp > 1,
          plan.settings.spp > 1 ? message(plan.settings.spp, " jittered pictures are averaged") : "spp = 1"});

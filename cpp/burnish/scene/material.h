@@ -77,6 +77,7 @@ struct Material {
     /// `map_metallic_roughness`; where a texture or vertex colour is in use the surface pass maps again at
     /// every pixel.
     std::optional<MetallicRoughness> source;
+    std::vector<std::string> left_out; ///< parts that change no pixel, and why; see idle_parts.h
 };
 
 /// Coverage below which a fragment is dropped; blended materials are drawn as masks at one half.

@@ -62,7 +62,9 @@ struct Scene {
 /// Throws std::invalid_argument unless indices, sizes and numbers are consistent and finite.
 void validate(const Scene& scene);
 
-/// glTF 2.0 (.gltf, .glb). Throws FileError.
-Scene load_gltf(const std::string& path, MaterialModel model = MaterialModel::ggx);
+/// glTF 2.0 (.gltf, .glb). `leaves_out_idle`: without what changes no pixel, see idle_parts.h. Throws
+/// FileError.
+Scene load_gltf(const std::string& path, MaterialModel model = MaterialModel::ggx,
+                bool leaves_out_idle = true);
 
 } // namespace burnish

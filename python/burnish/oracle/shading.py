@@ -40,7 +40,8 @@ def lobe_through(normals: Array, tangents: Array, views: Array, lobe: Any, share
     else:
         taken = (parts @ as_array(share))[..., None]
     taken = taken * conserving_scale(normals, tangents, views, lobe)
-    return 1 - np.clip(taken, 0, 1)
+    through: Array = 1 - np.clip(taken, 0, 1)
+    return through
 
 
 def add_layers(

@@ -8,6 +8,7 @@
 #include "burnish/error.h"
 #include "burnish/scene/gltf/material.h"
 #include "burnish/scene/gltf/mesh.h"
+#include "burnish/scene/idle_parts.h"
 
 namespace burnish {
 namespace gltf {
@@ -195,10 +196,12 @@ Scene load(const std::string& path, MaterialModel model) {
 } // namespace
 } // namespace gltf
 
-Scene load_gltf(const std::string& path, MaterialModel model) {
+Scene load_gltf(const std::string& path, MaterialModel model, bool leaves_out_idle) {
     // One door: whatever a broken file trips over, the caller sees the path and a sentence.
     try {
-        return gltf::load(path, model);
+        Scene scene = gltf::load(path, model);
+        if (leaves_out_idle) leave_out_idle_textures(scene);
+        return scene;
     } catch (const FileError&) {
         throw;
     } catch (const std::bad_alloc&) {
