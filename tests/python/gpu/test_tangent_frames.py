@@ -60,7 +60,7 @@ def brushed(**anisotropy):
 def brushed_lobe(strength):
     m = 0.45**2
     slopes = (m + (1 - m) * strength**2, m)
-    return burnish.Material(lobes=[burnish.KurtLobe(slopes, alpha=0.5, conserve_energy=True)])
+    return burnish.Material(lobes=[burnish.GgxLobe(slopes)])
 
 
 def square(path, material, texels, tangent, node):
@@ -152,7 +152,7 @@ def test_texture_may_make_the_roundest_factors_brushed(device, smooth64, tmp_pat
     scene = square(tmp_path, material, [texel], (0.6, 0.8, 0, 1), {})
     sampler = burnish.Importance()
     m = texel[1] ** 2
-    lobe = burnish.KurtLobe((m + (1 - m) * 0.8**2, m), alpha=0.5, conserve_energy=True)
+    lobe = burnish.GgxLobe((m + (1 - m) * 0.8**2, m))
     got, frame = middle_color(device, scene, smooth64, sampler, Z)
     levels = levels_of(device, smooth64, sampler)
     expected = oracle_shade(levels, burnish.Material(lobes=[lobe]), sampler, Z, [0.6, 0.8, 0.0], Z)
