@@ -20,17 +20,25 @@ std::string repr(const KurtLobe& lobe) {
 }
 
 GgxLobe make_ggx_lobe(const Pair& roughness, const Color& r0, const Color& f90, const Color& weight,
-                      float rotation) {
-    GgxLobe lobe{vec2_of(roughness), vec3_of(r0), vec3_of(f90), vec3_of(weight), rotation};
+                      float rotation, const std::string& compensate) {
+    if (compensate != "none" && compensate != "scale")
+        throw std::invalid_argument(
+            message("compensate: expected 'none' or 'scale', got '", compensate, "'"));
+    GgxLobe lobe{vec2_of(roughness), vec3_of(r0), vec3_of(f90),
+                 vec3_of(weight),    rotation,    compensate == "scale"};
     validate(lobe);
     return lobe;
+}
+
+const char* compensate_of(const GgxLobe& lobe) {
+    return lobe.compensates ? "scale" : "none";
 }
 
 std::string repr(const GgxLobe& lobe) {
     return message("GgxLobe(roughness=(", lobe.roughness.x, ", ", lobe.roughness.y, "), r0=(", lobe.r0.x,
                    ", ", lobe.r0.y, ", ", lobe.r0.z, "), f90=(", lobe.f90.x, ", ", lobe.f90.y, ", ",
                    lobe.f90.z, "), weight=(", lobe.weight.x, ", ", lobe.weight.y, ", ", lobe.weight.z,
-                   "), rotation=", lobe.rotation, ")");
+                   "), rotation=", lobe.rotation, ", compensate='", compensate_of(lobe), "')");
 }
 
 void bind_kurt_lobe(py::module_& m) {
@@ -100,13 +108,17 @@ weight : float or (float, float, float)
     Colour, >= 0.
 rotation : float
     Radians; turns the tangent counter-clockwise about the normal.
+compensate : str
+    "scale" puts back what light loses between facets that it meets more than once: times
+    1 + r0/f90 (1/E1 - 1), E1 the albedo for r0 = f90 = 1, which then is 1 (Turquin 2019). "none": glTF's lobe.
 
 Raises
 ------
 ValueError
     If a number is out of its range.)")
         .def(py::init(&make_ggx_lobe), py::arg("roughness") = Pair(0.2f), py::arg("r0") = Color(1.0f),
-             py::arg("f90") = Color(1.0f), py::arg("weight") = Color(1.0f), py::arg("rotation") = 0.0f)
+             py::arg("f90") = Color(1.0f), py::arg("weight") = Color(1.0f), py::arg("rotation") = 0.0f,
+             py::arg("compensate") = "none")
         .def_property_readonly(
             "roughness", [](const GgxLobe& l) { return tuple_of(l.roughness); },
             "(float, float): alpha along tangent and bitangent.")
@@ -119,6 +131,7 @@ ValueError
         .def_property_readonly(
             "weight", [](const GgxLobe& l) { return tuple_of(l.weight); }, "(float, float, float): colour.")
         .def_readonly("rotation", &GgxLobe::rotation, "Radians about the normal.")
+        .def_property_readonly("compensate", &compensate_of, "'none' or 'scale'.")
         .def_property_readonly("is_anisotropic", &GgxLobe::is_anisotropic, "Whether the two alphas differ.")
         .def_property_readonly("has_fresnel", &GgxLobe::has_fresnel, "Whether r0 is not f90 anywhere.")
         .def("__repr__", [](const GgxLobe& l) { return repr(l); });

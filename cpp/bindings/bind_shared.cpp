@@ -28,7 +28,7 @@ std::map<std::string, Layout> shared_layout() {
           FIELD(LobeRecord, rotation_cos), FIELD(LobeRecord, rotation_sin), FIELD(LobeRecord, table_begin),
           FIELD(LobeRecord, table_count), FIELD(LobeRecord, albedo_begin),
           FIELD(LobeRecord, albedo_width_nodes), FIELD(LobeRecord, threshold_log),
-          FIELD(LobeRecord, conserves_energy), FIELD(LobeRecord, level_share),
+          FIELD(LobeRecord, energy), FIELD(LobeRecord, level_share),
           FIELD(LobeRecord, view_columns), FIELD(LobeRecord, view_drift), FIELD(LobeRecord, cover)}},
         {"MaterialRecord",
          {FIELD(MaterialRecord, diffuse), FIELD(MaterialRecord, emissive), FIELD(MaterialRecord, lobe_begin),

@@ -78,9 +78,4 @@ vec2 lobe_albedo(LobeRecord record, vec2 roughness, vec3 local_o) {
     return fixed_albedo(record.albedo_begin, record.albedo_width_nodes, local_o, roughness);
 }
 
-// What makes a lobe that would gain energy at this view keep what it gets: 1 / max(1, E1 cos_o^-alpha).
-float conserving_scale(LobeRecord record, vec2 albedo, float cos_o_power) {
-    return CONSERVES_ENERGY && record.conserves_energy != 0u ? 1.0 / max(1.0, albedo.x * cos_o_power) : 1.0;
-}
-
 #endif

@@ -54,7 +54,7 @@ LobeRecord load_lobe(uint index) {
     lobe.albedo_width_nodes = row.z;
     lobe.threshold_log = uintBitsToFloat(row.w);
     row = ROW(lobe_rows, LOBE, 4);
-    lobe.conserves_energy = row.x;
+    lobe.energy = row.x;
     lobe.level_share = uintBitsToFloat(row.y);
     lobe.view_columns = row.z;
     lobe.view_drift = row.w;

@@ -190,9 +190,10 @@ void main() {
         if (CONSERVES_ENERGY || HAS_LAYERS) {
             vec2 albedo = lobe_albedo(record, v.lobe.roughness, v.local_o);
             float power = pow(max(v.local_o.z, MIN_COS), -record.alpha);
-            float conserving = conserving_scale(record, albedo, power);
-            light *= conserving;
-            through = lobe_through(record, v.lobe, albedo * (conserving * power));
+            albedo *= power;
+            vec3 scale = energy_scale(record, reflectance_of(v.lobe), albedo.x);
+            light *= scale;
+            through = lobe_through(record, v.lobe, albedo, scale);
         }
         add_lobe(layers, record, light, through);
     }

@@ -12,7 +12,7 @@
 #include "shade/suns.glsl"
 #include "shade/surface_point.glsl"
 
-// Light of the lobe at the point without its suns, conserving_scale and the map's exposure.
+// Light of the lobe at the point without its suns, energy_scale and the map's exposure.
 vec3 look_up_lobe(LobeView v, SurfaceLobe lobe, LobeRecord record, vec2 albedo, MapRecord map);
 
 void shade_lobe(PointToShade point, MapRecord map, uint lobe_index, uint which, inout Layers layers) {
@@ -37,9 +37,9 @@ void shade_lobe(PointToShade point, MapRecord map, uint lobe_index, uint which, 
         albedo = lobe_albedo(record, v.roughness, v.local_o);
     vec3 light = look_up_lobe(v, lobe, record, albedo, map);
     if (SUN_COUNT > 0u) light += shade_suns(v, map, lobe.specular, lobe.grazing);
-    float conserving = conserving_scale(record, albedo, v.cos_o_power);
-    add_lobe(layers, record, light * conserving,
-             lobe_through(record, lobe, albedo * (conserving * v.cos_o_power)));
+    albedo *= v.cos_o_power;
+    vec3 scale = energy_scale(record, reflectance_of(lobe), albedo.x);
+    add_lobe(layers, record, light * scale, lobe_through(record, lobe, albedo, scale));
 }
 
 void main() {

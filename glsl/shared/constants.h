@@ -161,6 +161,11 @@ SHARED_CONST uint SOURCE_POINTS = 1u;
 SHARED_CONST uint MODEL_KURT = 0u;
 SHARED_CONST uint MODEL_GGX = 1u;
 SHARED_CONST uint MODEL_BITS = 4u;
+// What is done about a lobe's energy: nothing; more than it gets is divided out; what is lost between facets
+// is put back.
+SHARED_CONST uint ENERGY_AS_IT_IS = 0u;
+SHARED_CONST uint ENERGY_CONSERVED = 1u;
+SHARED_CONST uint ENERGY_COMPENSATED = 2u;
 SHARED_CONST uint ALPHA_ZERO = 0u;    // cos_i
 SHARED_CONST uint ALPHA_HALF = 1u;    // a square root
 SHARED_CONST uint ALPHA_GENERAL = 2u; // a power

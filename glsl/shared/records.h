@@ -24,7 +24,7 @@ struct LobeRecord {
     uint albedo_begin;       // first entry of its albedo table
     uint albedo_width_nodes; // of a fixed roughness; 1 = round
     float threshold_log;     // -ln xi0, for scaled tables of the regular pattern
-    uint conserves_energy;   // 1: divided by its albedo where that exceeds 1
+    uint energy;             // ENERGY_...
     float level_share;       // of matched lookups: what a variance of 1 is of level 1's, face_texels / (16
                              // SPHERICAL_VARIANCE)
     uint view_columns;       // of a table by view: 1 = isotropic

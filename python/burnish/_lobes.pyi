@@ -1,7 +1,7 @@
 """Types of the compiled part: models of lobes."""
 
 from collections.abc import Sequence
-from typing import TypeAlias
+from typing import Literal, TypeAlias
 
 _Pair: TypeAlias = float | Sequence[float]
 _Color: TypeAlias = float | Sequence[float]
@@ -41,7 +41,10 @@ class GgxLobe:
         f90: _Color = 1.0,
         weight: _Color = 1.0,
         rotation: float = 0.0,
+        compensate: Literal["none", "scale"] = "none",
     ) -> None: ...
+    @property
+    def compensate(self) -> Literal["none", "scale"]: ...
     @property
     def roughness(self) -> tuple[float, float]: ...
     @property

@@ -9,7 +9,7 @@ Lobe: TypeAlias = KurtLobe | GgxLobe
 #: Model, its class, and its parameters as the constructor takes them.
 MODELS: dict[str, tuple[type, tuple[str, ...]]] = {
     "kurt": (KurtLobe, ("roughness", "r0", "alpha", "weight", "rotation", "conserve_energy")),
-    "ggx": (GgxLobe, ("roughness", "r0", "f90", "weight", "rotation")),
+    "ggx": (GgxLobe, ("roughness", "r0", "f90", "weight", "rotation", "compensate")),
 }
 
 

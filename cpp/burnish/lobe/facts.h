@@ -77,7 +77,7 @@ struct LobeFacts {
     LobeShape shape;
     bool is_brushed = false;
     bool has_fresnel = false;
-    bool gains_energy = false; ///< and is to be divided by its albedo where that exceeds 1
+    bool scales_energy = false; ///< by its albedo, see ENERGY_...
     uint32_t alpha_form = shared::ALPHA_ZERO;
 
     glm::vec2 width() const { return {shape.width_x, shape.width_y}; }

@@ -168,12 +168,15 @@ LobeFacts facts(const GgxLobe& lobe) {
     LobeFacts facts;
     facts.shape = {.model = &GGX, .width_x = lobe.roughness.x, .width_y = lobe.roughness.y};
     facts.is_brushed = lobe.is_anisotropic();
+    facts.scales_energy = lobe.compensates;
     set_fresnel(facts, lobe.weight, lobe.r0, lobe.f90);
     return facts;
 }
 
 shared::LobeRecord record(const GgxLobe& lobe) {
-    return make_record(facts(lobe).shape, lobe.weight, lobe.r0, lobe.f90, lobe.rotation);
+    shared::LobeRecord record = make_record(facts(lobe).shape, lobe.weight, lobe.r0, lobe.f90, lobe.rotation);
+    record.energy = lobe.compensates ? shared::ENERGY_COMPENSATED : shared::ENERGY_AS_IT_IS;
+    return record;
 }
 
 } // namespace burnish

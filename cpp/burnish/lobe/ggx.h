@@ -17,6 +17,8 @@ struct GgxLobe {
     glm::vec3 f90{1.0f};       ///< reflectance along the surface, in [0, 1]
     glm::vec3 weight{1.0f};    ///< colour, >= 0
     float rotation = 0.0f;     ///< radians, turns the tangent counter-clockwise about the normal
+    /// Puts back what light loses between facets: times 1 + r0/f90 (1/E1 - 1).
+    bool compensates = false;
 
     bool is_anisotropic() const { return roughness.x != roughness.y; }
     bool has_fresnel() const { return r0 != f90; }

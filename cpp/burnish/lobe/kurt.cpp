@@ -83,7 +83,7 @@ LobeFacts facts(const KurtLobe& lobe) {
     facts.shape = {
         .model = &KURT, .width_x = lobe.roughness.x, .width_y = lobe.roughness.y, .alpha = lobe.alpha};
     facts.is_brushed = lobe.is_anisotropic();
-    facts.gains_energy = lobe.conserve_energy && lobe.alpha > 0.0f; // with alpha = 0 nothing is gained
+    facts.scales_energy = lobe.conserve_energy && lobe.alpha > 0.0f; // with alpha = 0 nothing is gained
     facts.alpha_form = lobe.alpha == 0.0f   ? shared::ALPHA_ZERO
                        : lobe.alpha == 0.5f ? shared::ALPHA_HALF
                                             : shared::ALPHA_GENERAL;
@@ -94,7 +94,7 @@ LobeFacts facts(const KurtLobe& lobe) {
 shared::LobeRecord record(const KurtLobe& lobe) {
     shared::LobeRecord record =
         make_record(facts(lobe).shape, lobe.weight, lobe.r0, glm::vec3(1.0f), lobe.rotation);
-    record.conserves_energy = lobe.conserve_energy ? 1 : 0;
+    record.energy = lobe.conserve_energy ? shared::ENERGY_CONSERVED : shared::ENERGY_AS_IT_IS;
     return record;
 }
 

@@ -33,8 +33,8 @@ bool has_fresnel(const Subject& subject) {
                     [&](const LobeFacts& lobe) { return lobe.has_fresnel || is_varying(subject.material); });
 }
 
-bool conserves_energy(const Subject& subject) {
-    return any_lobe(subject.material, [](const LobeFacts& lobe) { return lobe.gains_energy; });
+bool scales_energy(const Subject& subject) {
+    return any_lobe(subject.material, [](const LobeFacts& lobe) { return lobe.scales_energy; });
 }
 
 bool has_lobes(const Variant& variant) {
@@ -63,7 +63,7 @@ constexpr std::array EFFECTS = {
     Effect{shared::SPEC_ALPHA, "alpha", "every lobe has alpha = 0", true, false, alpha_form,
            [](uint32_t value, const Variant& all) { return has_lobes(all) ? shared::ALPHA_GENERAL : value; }},
     Effect{shared::SPEC_CONSERVES_ENERGY, "energy conservation", "no lobe asks for it", true, true,
-           [](const Subject& one) { return uint32_t(conserves_energy(one)); }, on_of_lobes},
+           [](const Subject& one) { return uint32_t(scales_energy(one)); }, on_of_lobes},
     Effect{shared::SPEC_HAS_LAYERS, "layers", "no material is layered", true, true,
            [](const Subject& one) { return uint32_t(has_layers(one.material)); }, on_of_lobes},
     Effect{shared::SPEC_HAS_TANGENT, "anisotropy", "every lobe is round", true, true,

@@ -14,7 +14,7 @@ from burnish.oracle.matched import MatchedMap
 from burnish.oracle.prefiltered import shade_prefiltered
 from burnish.oracle.pyramid import hold_in_halves
 from burnish.oracle.reference import quadrature_parts, shade_reference
-from burnish.oracle.shading import conserving_scale, shade_lobe, shade_matched_lobes
+from burnish.oracle.shading import energy_scale, shade_lobe, shade_matched_lobes
 from burnish.oracle.sun_split import split_suns
 from burnish.rendering import shade
 from burnish.samplers import Sampler
@@ -93,7 +93,7 @@ class Bench:
                 part = shade_prefiltered(prepared, normals, tangents, views, lobe)
             else:
                 part = shade_lobe(prepared, normals, tangents, views, lobe, sampler)
-            total += part * conserving_scale(normals, tangents, views, lobe)
+            total += part * energy_scale(normals, tangents, views, lobe)
         return total
 
     def _prepared(self, light: str, kind: str) -> Any:

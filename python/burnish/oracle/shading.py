@@ -21,13 +21,22 @@ from .reference import shade_reference
 from .regular_pattern import choose_pattern
 
 
-def conserving_scale(normals: Array, tangents: Array, views: Array, lobe: Any) -> Array:
-    """1 / max(1, E_1), (..., 1): keeps a lobe from giving back more than it gets; 1 unless it asks for it."""
-    if not getattr(lobe, "conserve_energy", False) or lobe.alpha == 0.0:
+def energy_scale(normals: Array, tangents: Array, views: Array, lobe: Any, reflectance: Any = None) -> Array:
+    """What a lobe is multiplied by for its energy, (..., 1) or (..., 3); 1 unless it asks for something.
+
+    `conserve_energy`: 1/max(1, E_1), E_1 the albedo for a reflectance of 1: no more comes back than came in.
+    `compensate` "scale": 1 + r (1/E_1 - 1) with r = r0/f90, or `reflectance`: what light lost between facets.
+    """
+    compensates = getattr(lobe, "compensate", "none") == "scale"
+    if not compensates and (not getattr(lobe, "conserve_energy", False) or lobe.alpha == 0.0):
         return np.ones((*normals.shape[:-1], 1))
     omega_o = local_frame(normals, tangents, views, lobe.rotation).omega_o
     albedo: Array = model_of(lobe).albedo(omega_o, lobe)[..., :1]
-    return 1.0 / np.maximum(albedo, 1.0)
+    if not compensates:
+        return 1.0 / np.maximum(albedo, 1.0)
+    r = reflectance if reflectance is not None else as_array(lobe.r0) / grazing_reflectance(lobe)
+    scale: Array = 1 + as_array(r) * (1 / albedo - 1)
+    return scale
 
 
 def lobe_through(normals: Array, tangents: Array, views: Array, lobe: Any, share: Any) -> Array:
@@ -36,10 +45,11 @@ def lobe_through(normals: Array, tangents: Array, views: Array, lobe: Any, share
     parts: Array = model_of(lobe).albedo(omega_o, lobe)
     if share is None:
         reflected = as_array(lobe.weight) * blend_albedo(parts, lobe.r0, grazing_reflectance(lobe))
+        reflected = reflected * energy_scale(normals, tangents, views, lobe)
         taken = np.max(reflected, axis=-1, keepdims=True)
     else:
-        taken = (parts @ as_array(share))[..., None]
-    taken = taken * conserving_scale(normals, tangents, views, lobe)
+        scale = energy_scale(normals, tangents, views, lobe, share[0] / max(sum(share), 1e-20))
+        taken = (parts @ as_array(share))[..., None] * scale
     through: Array = 1 - np.clip(taken, 0, 1)
     return through
 
@@ -104,7 +114,7 @@ def _matched_lights(
     placement: Placement | None,
 ) -> list[Array]:
     return [
-        shade_matched(light_map, *frame, lobe, samples, placement) * conserving_scale(*frame, lobe)
+        shade_matched(light_map, *frame, lobe, samples, placement) * energy_scale(*frame, lobe)
         for lobe in material.lobes
     ]
 
@@ -160,7 +170,7 @@ def shade(
     name = type(sampler).__name__
     if name == "Reference":
         lights = [
-            shade_reference(env_levels[0], *frame, lobe) * conserving_scale(*frame, lobe)
+            shade_reference(env_levels[0], *frame, lobe) * energy_scale(*frame, lobe)
             for lobe in material.lobes
         ]
     elif material.lobes and name == "Matched":
@@ -171,7 +181,7 @@ def shade(
         cube = pad_cube(env_levels)
         shade_one = shade_prefiltered if name == "Prefiltered" else shade_lobe
         lights = [
-            shade_one(cube, *frame, lobe, sampler) * conserving_scale(*frame, lobe) for lobe in material.lobes
+            shade_one(cube, *frame, lobe, sampler) * energy_scale(*frame, lobe) for lobe in material.lobes
         ]
     seen = dot(normals, views)[..., None] > 0
     return np.where(seen, add_layers(material, lights, below, *frame), 0.0)

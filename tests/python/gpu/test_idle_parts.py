@@ -34,7 +34,7 @@ VIEW = np.array([0.48, -0.36, 0.8])
 def square(path, kind, texels, leave_out_idle, **more):
     home, _, _ = KINDS[kind]
     extensions = {name: dict(fields) for name, fields in EXTENSIONS.items()}
-    # Beside metal, a texture of specular makes all of the lobe stand for its dielectric part: maths 1, Layers.
+    # Beside metal a texture of specular makes all of the lobe stand for its dielectric part (maths 1).
     pbr = PBR | ({"metallicFactor": 0.0} if "specular" in kind else {})
     material = {
         "pbrMetallicRoughness": pbr,

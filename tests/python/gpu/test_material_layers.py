@@ -49,6 +49,7 @@ BY_HAND = burnish.Material(
         burnish.GgxLobe((0.4, 0.2), r0=(0.3, 0.04, 0.5), f90=0.9, rotation=0.4),
         burnish.KurtLobe(0.3, r0=0.1, alpha=0.5, weight=(0.5, 0.7, 0.2), conserve_energy=True),
         burnish.GgxLobe(0.1, r0=0.04, weight=0.6),
+        burnish.GgxLobe(0.5, r0=(0.2, 0.5, 0.1), f90=0.8, weight=0.3, compensate="scale"),
     ],
     emissive=(0.3, 0.2, 0.1),
     layered=True,
@@ -135,6 +136,31 @@ def test_emission_lies_below_a_coat_alone(device):
     np.testing.assert_allclose(coated, 2.0 * (1 - schlick), atol=0.02)
     # A coat over a surface that reflects nothing itself.
     np.testing.assert_allclose(emitted(clearcoat=1.0, specular=0.0), coated, rtol=1e-5)
+
+
+@pytest.mark.parametrize("sampler", SAMPLERS, ids=repr)
+@pytest.mark.parametrize("roughness", [0.1, 0.5, 1.0, (1.0, 0.3)], ids=str)
+def test_compensated_metal_gives_back_all_it_gets(device, uniform, sampler, roughness):
+    views = views_about_z(FROM_ABOVE_TO_GRAZING[1:], np.array([0.3, 1.2]))
+
+    def albedo(**numbers):
+        material = burnish.Material(lobes=[burnish.GgxLobe(roughness, **numbers)])
+        return burnish.shade(uniform, material, sampler, *views, device=device)
+
+    # Importance sampling sums with its own error.
+    limit = 0.05 if type(sampler) is burnish.Importance else 5e-3
+    np.testing.assert_allclose(albedo(compensate="scale"), 1.0, atol=limit + lookup_error(device, 1.0))
+    half, lost = albedo(r0=0.5, f90=0.5, compensate="scale"), albedo()
+    np.testing.assert_allclose(half, 0.5 * lost * (1 + 1.0 * (1 / lost - 1)), atol=limit)
+    if roughness == 1.0:
+        assert lost.min() < 0.5
+
+
+def test_compensation_has_two_forms():
+    assert burnish.GgxLobe(0.2).compensate == "none"
+    assert "compensate='scale'" in repr(burnish.GgxLobe(0.2, compensate="scale"))
+    with pytest.raises(ValueError, match="compensate: expected 'none' or 'scale', got 'kulla-conty'"):
+        burnish.GgxLobe(0.2, compensate="kulla-conty")
 
 
 def test_covers_say_what_a_lobe_takes():

@@ -38,6 +38,7 @@ class GgxLobe:
     f90: Any = 1.0
     weight: Any = 1.0
     rotation: float = 0.0  # radians, turns the tangent counter-clockwise about the normal
+    compensate: str = "none"  # "scale": times 1 + r0/f90 (1/E_1 - 1)
 
 
 def ggx_d(h: npt.ArrayLike, ax: npt.ArrayLike, ay: npt.ArrayLike) -> Array:
