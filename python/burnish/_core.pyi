@@ -21,6 +21,7 @@ from burnish._timings import pyramid_times as pyramid_times
 from burnish._timings import time_blits as time_blits
 from burnish._timings import time_lookups as time_lookups
 from burnish._timings import time_shading as time_shading
+from burnish.filters import Filter as _Filter
 from burnish.images.source import FilePath as _Path
 from burnish.images.source import PictureFile as _PictureFile
 
@@ -30,7 +31,6 @@ _Prefiltered: TypeAlias = list[tuple[float, _Float32]]
 _Pair: TypeAlias = float | Sequence[float]
 _Color: TypeAlias = float | Sequence[float]
 _Rotation: TypeAlias = float | ArrayLike | None
-_Filter: TypeAlias = Literal["box", "gauss4", "gauss6"]
 _Progress: TypeAlias = Callable[[float, str], None] | None
 _Sampler: TypeAlias = Regular | Importance | Matched | Prefiltered | Reference
 

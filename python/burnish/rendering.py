@@ -9,16 +9,16 @@ from numpy.typing import NDArray
 
 from burnish import _core
 from burnish._device import default_device
+from burnish.filters import FILTERS
+from burnish.filters import Filter as Filter
 from burnish.frame import Frame
 from burnish.report import Report
 from burnish.samplers import Sampler
 
-Filter: TypeAlias = Literal["box", "gauss4", "gauss6"]
 Output: TypeAlias = Literal["linear", "display"]
 FloatArray: TypeAlias = NDArray[np.float32]
 Progress: TypeAlias = Callable[[float, str], None]
 
-FILTERS = ("box", "gauss4", "gauss6")
 LARGEST_EDGE_PX = 16384
 LARGEST_EXPOSURE = 64.0
 

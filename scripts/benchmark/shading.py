@@ -5,12 +5,12 @@ import time
 
 import burnish
 from burnish import _core, environments
+from burnish.filters import FILTERS
 from burnish.images import display_image
 
 from .bench import PIXELS, PUBLISHED, ROUGHNESS, SIZE, Bench, Measure, camera, frame_measure, pass_times
 
 PYRAMID_SIZES = (256, 512, 1024)
-FILTERS = ("box", "gauss4", "gauss6")
 
 
 def bench_shading(bench: Bench) -> None:

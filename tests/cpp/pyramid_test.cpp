@@ -45,8 +45,7 @@ std::vector<Faces> levels_of(uint32_t size, const Faces& faces, PyramidFilter fi
 }
 
 std::string case_name(const testing::TestParamInfo<std::tuple<PyramidFilter, uint32_t>>& info) {
-    return std::string(pyramid_filter_name(std::get<0>(info.param))) + "_" +
-           std::to_string(std::get<1>(info.param));
+    return std::string(row_of(std::get<0>(info.param)).name) + "_" + std::to_string(std::get<1>(info.param));
 }
 
 class PyramidOfSize : public testing::TestWithParam<std::tuple<PyramidFilter, uint32_t>> {};
@@ -102,7 +101,7 @@ TEST_P(PyramidOfSize, KeepsAConstantMapExactly) {
 class PyramidOfFilter : public testing::TestWithParam<PyramidFilter> {};
 INSTANTIATE_TEST_SUITE_P(Filter, PyramidOfFilter,
                          testing::Values(PyramidFilter::box, PyramidFilter::gauss4, PyramidFilter::gauss6),
-                         [](const auto& one) { return std::string(pyramid_filter_name(one.param)); });
+                         [](const auto& one) { return std::string(row_of(one.param).name); });
 
 // Stores that truncate would lose 3e-4 a level. Off the box filter, corners get a little more weight than
 // other texels.

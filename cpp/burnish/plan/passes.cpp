@@ -47,7 +47,7 @@ std::vector<PassLine> passes_of(const Plan& plan) {
     const bool is_reference = plan.sampler.is_truth;
     if (plan.has_lookups && plan.sampler.levels != MapLevels::none)
         add(PassKind::pyramid,
-            message(pyramid_filter_name(plan.settings.filter), " levels of ", plan.environments.size(),
+            message(row_of(plan.settings.filter).name, " levels of ", plan.environments.size(),
                     plan.environments.size() == 1 ? " map" : " maps", ", once per map"));
     if (plan.has_lookups && !plan.sampler.levels_reason.empty())
         add(PassKind::prefilter, plan.sampler.levels_reason);

@@ -23,10 +23,6 @@ constexpr VkFormat PAIR_FORMAT = VK_FORMAT_R32G32B32A32_UINT;
 // last one.
 constexpr uint64_t SLACK_PAIRS = 64;
 
-uint32_t tap_count(PyramidFilter filter) {
-    return filter == PyramidFilter::box ? 2 : filter == PyramidFilter::gauss4 ? 4 : 6;
-}
-
 uint32_t row_pairs(uint32_t size) {
     return (size + 2 * shared::PYRAMID_BORDER + 1) / 2;
 }
@@ -105,7 +101,7 @@ const vulkan::ComputePipeline& Pyramid::reduction(PyramidFilter filter, const Gr
     const auto found = reductions_.find(key);
     if (found != reductions_.end()) return found->second;
     const auto constants = vulkan::SpecializationConstants{}
-                               .set(shared::SPEC_PYRAMID_TAPS, tap_count(filter))
+                               .set(shared::SPEC_PYRAMID_TAPS, row_of(filter).taps)
                                .set(shared::SPEC_PYRAMID_LOCAL_X, group.x)
                                .set(shared::SPEC_PYRAMID_LOCAL_Y, group.y)
                                .set(shared::SPEC_PYRAMID_IS_STORED, access == vulkan::ElementAccess::storage);

@@ -27,7 +27,7 @@ Report Renderer::start_report(const Scene& scene, const Plan& plan, const ShadeT
     report.device_driver = device_->info().driver;
     report.is_software = device_->info().is_software;
     report.spp = plan.settings.spp;
-    report.filter = pyramid_filter_name(plan.settings.filter);
+    report.filter = row_of(plan.settings.filter).name;
     report.sampler = plan.sampler.text;
     report.effects = plan.effects;
     report.diffuse_error = tables.diffuse_error;

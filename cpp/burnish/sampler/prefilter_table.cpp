@@ -37,8 +37,8 @@ SampleTable build_prefilter_table(uint32_t level, uint32_t face_size) {
 SampleTable build_spherical_table(uint32_t size, uint32_t face_size, PyramidFilter filter) {
     const std::vector<glm::vec4> mixtures = matched_mixtures(SPHERICAL_SAMPLES);
     const double texel = 2.0 / size, scale = std::sqrt(2.0 * shared::SPHERICAL_LEVEL_VARIANCE) * texel;
-    const double texels =
-        double(face_size) * face_size / (4.0 * lookup_variance(filter)) * std::exp2(2.0 * SPHERICAL_BIAS);
+    const double texels = double(face_size) * face_size / (4.0 * row_of(filter).lookup_variance) *
+                          std::exp2(2.0 * SPHERICAL_BIAS);
     SampleTable table;
     for (uint32_t k = 0; k < SPHERICAL_SAMPLES / 2; ++k) {
         const glm::dvec4 mixture = mixtures[k]; // of the first row: an aspect of 1

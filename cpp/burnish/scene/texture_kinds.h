@@ -1,6 +1,7 @@
 // The textures that a material may have: one list for all that goes through them.
 #pragma once
 
+#include <algorithm>
 #include <iterator>
 
 #include "burnish/scene/material.h"
@@ -33,5 +34,7 @@ inline constexpr TextureKind TEXTURE_KINDS[] = {
      &MetallicRoughness::clearcoat_normal_texture, false},
 };
 static_assert(std::size(TEXTURE_KINDS) == shared::TEXTURE_KINDS);
+static_assert(std::ranges::all_of(TEXTURE_KINDS,
+                                  [](const TextureKind& one) { return &TEXTURE_KINDS[one.kind] == &one; }));
 
 } // namespace burnish

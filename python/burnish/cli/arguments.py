@@ -4,6 +4,7 @@ import argparse
 from typing import NoReturn
 
 from burnish._extension import load_failure
+from burnish.filters import FILTERS
 
 SCENE_HELP = "a .gltf or .glb file, or a built-in scene: sphere, spheres, plane, shaderball"
 TARGET_HELP = "relative RMSE of linear radiance where objects are: 0.02 is 2 %%"
@@ -72,7 +73,7 @@ def add_scene_arguments(parser: argparse.ArgumentParser, has_sampler: bool = Tru
         )
     parser.add_argument(
         "--filter",
-        choices=("box", "gauss4", "gauss6"),
+        choices=FILTERS,
         default="gauss6",
         help="reduction filter of the environment's pyramid (default: gauss6)",
     )

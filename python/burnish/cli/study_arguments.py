@@ -4,6 +4,7 @@ import argparse
 from pathlib import Path
 
 from burnish.cli.arguments import SCENE_HELP, parse_size
+from burnish.filters import FILTERS
 
 SAMPLERS_HELP = (
     "as for --sampler of burnish render, with several counts at once and any parameter by name: "
@@ -56,7 +57,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     grid.add_argument(
         "--filter",
         nargs="+",
-        choices=("box", "gauss4", "gauss6"),
+        choices=FILTERS,
         default=["gauss6"],
         help="reduction filters of the environment's pyramid (default: gauss6)",
     )

@@ -6,13 +6,12 @@ from functools import partial
 import numpy as np
 
 from burnish import _core
+from burnish.filters import FILTERS
 from burnish.hardcases.bench import Bench
 from burnish.hardcases.case import ONCE, Bound, HardCase, Quantity
 from burnish.hardcases.inputs import HALF_MAX, Float32, constant, one_texel, smooth, spoilt
 from burnish.oracle.cube_map import border_indices, texel_solid_angle
 from burnish.oracle.pyramid import Filter, reduce_level
-
-FILTERS: tuple[Filter, ...] = ("box", "gauss4", "gauss6")
 
 
 def edge_steps(level: Float32) -> tuple[float, float]:

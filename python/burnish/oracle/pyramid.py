@@ -26,7 +26,7 @@ def reduce_level(level: npt.ArrayLike, filter: Filter) -> Array:
     """Return the next coarser level, (6, n/2, n/2, c) of (6, n, n, c)."""
     level = as_array(level)
     if filter not in TAPS:
-        raise ValueError(f'filter: expected "box", "gauss4" or "gauss6", got {filter!r}')
+        raise ValueError(f"filter: expected one of {', '.join(TAPS)}, got {filter!r}")
     taps = TAPS[filter]
     size = level.shape[1]
     faces = add_border(level, len(taps) // 2 - 1)

@@ -14,6 +14,7 @@ import numpy as np
 from tqdm import tqdm
 
 import burnish
+from burnish.filters import FILTERS
 
 POINTS_PER_BLOCK = 1 << 18
 # Up to so many lookups of a point are written out: seconds on a CPU device for each kind of material.
@@ -195,7 +196,7 @@ def run_block(block: int, device: burnish.Device, result: Result, count: int = P
     environments = [random_environment(rng, largest_face) for _ in range(environment_count)]
     each = max(1, count // (len(materials) * len(environments)))
     for material, environment in itertools.product(materials, environments):
-        filter = str(rng.choice(["box", "gauss4", "gauss6"]))
+        filter = str(rng.choice(FILTERS))
         points = random_points(rng, each)
         shade_hostile(environment, material, sampler, points, filter, device, result, f"seed {block}")
 

@@ -15,6 +15,7 @@ from hypothesis import strategies as st
 
 import burnish
 from burnish.environments import cube_directions
+from burnish.filters import FILTERS
 from burnish.oracle.shading import shade as oracle_shade
 from engine_support import directions as as_directions
 from engine_support import lookup_error, random_points, smooth_environment_faces
@@ -60,7 +61,7 @@ def shade_and_count(environment, material, sampler, points, device, filter="gaus
     material=strategies.materials(),
     points=strategies.hostile_points(),
     texels=strategies.faces(),
-    filter=st.sampled_from(["box", "gauss4", "gauss6"]),
+    filter=st.sampled_from(FILTERS),
 )
 def test_any_point_under_any_map_gives_finite_radiance_that_is_not_negative(
     device, name, material, points, texels, filter
@@ -92,7 +93,7 @@ def test_shade_equals_the_oracle(device, smooth16, name, material, seed):
 
 
 @fuzzed
-@given(texels=strategies.faces(), filter=st.sampled_from(["box", "gauss4", "gauss6"]))
+@given(texels=strategies.faces(), filter=st.sampled_from(FILTERS))
 def test_any_texels_are_cleaned_and_blurred_within_their_range(device, texels, filter):
     environment = burnish.Environment.from_faces(texels)
     cleaned = environment.faces

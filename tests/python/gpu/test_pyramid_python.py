@@ -6,11 +6,10 @@ import numpy as np
 import pytest
 
 import burnish
+from burnish.filters import FILTERS
 from burnish.oracle.cube_map import FACE_AXES
 from burnish.oracle.pyramid import build_pyramid, hold_in_halves, reduce_level
 from engine_support import edge_texels, smooth_environment_faces
-
-FILTERS = ["box", "gauss4", "gauss6"]
 
 
 def half_ulp(values):

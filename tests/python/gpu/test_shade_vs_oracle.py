@@ -10,6 +10,7 @@ import pytest
 
 import burnish
 from burnish.environments import spots
+from burnish.filters import FILTERS
 from burnish.oracle.shading import shade as oracle_shade
 from engine_support import lookup_error, random_points
 
@@ -162,7 +163,7 @@ def test_shade_without_lobe_diffuse_or_emission_is_black(device, spots64, points
     assert not got.any()
 
 
-@pytest.mark.parametrize("filter", ["box", "gauss4", "gauss6"])
+@pytest.mark.parametrize("filter", FILTERS)
 def test_shade_looks_up_the_filter_asked_for(device, spots64, points, filter):
     compare(
         device, spots64, lobe_material(ISOTROPIC), burnish.Regular(normalization="published"), points, filter

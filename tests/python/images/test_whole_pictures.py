@@ -5,13 +5,14 @@ import pytest
 
 import burnish
 from burnish import images
+from burnish.filters import FILTERS
 from burnish.oracle.pyramid import build_pyramid
 from burnish.oracle.render import render as oracle_render
 from engine_support import oracle_camera, oracle_objects, smooth_environment_faces
 from image_compare import OUTPUT, assert_pictures_match
 
 
-@pytest.mark.parametrize("filter", ["box", "gauss4", "gauss6"])
+@pytest.mark.parametrize("filter", FILTERS)
 def test_shader_ball_equals_the_oracle_s_picture(device, filter):
     """Glossy ball on a satin ground: nothing of the engine but the mesh goes into the expected picture."""
     lobe = burnish.KurtLobe(roughness=0.3, r0=(0.95, 0.64, 0.54), alpha=0.5)

@@ -9,7 +9,7 @@ PACKAGE = Path(__file__).resolve().parents[3] / "python" / "burnish"
 EXTENSION = {"_core", "_lobes", "_samplers", "_texels", "_timings"}
 # From the bottom; names are modules or packages, and the longest that fits counts.
 LAYERS = (
-    (*sorted(EXTENSION), "_extension", "_progress", "_version", "cube_layout"),
+    (*sorted(EXTENSION), "_extension", "_progress", "_version", "cube_layout", "filters"),
     ("oracle", "images", "_device"),
     ("samplers", "lobes", "environments", "environment_io", "report", "frame"),
     ("builtin", "rendering"),

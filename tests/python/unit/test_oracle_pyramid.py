@@ -3,17 +3,18 @@ import itertools
 import numpy as np
 import pytest
 
+from burnish.filters import FILTERS
 from burnish.oracle.pyramid import build_pyramid, reduce_level, round_to_half
 
 
-@pytest.mark.parametrize("filter", ["box", "gauss4", "gauss6"])
+@pytest.mark.parametrize("filter", FILTERS)
 @pytest.mark.parametrize("size", [1, 2, 16])
 def test_constant_light_stays_constant(filter, size):
     for level in build_pyramid(np.full((6, size, size, 3), 0.7), filter):
         np.testing.assert_allclose(level, 0.7, rtol=1e-14)
 
 
-@pytest.mark.parametrize("filter", ["box", "gauss4", "gauss6"])
+@pytest.mark.parametrize("filter", FILTERS)
 def test_levels_halve_down_to_one_texel(filter, rng):
     sizes = [level.shape for level in build_pyramid(rng.random((6, 32, 32, 3)), filter)]
     assert sizes == [(6, n, n, 3) for n in (32, 16, 8, 4, 2, 1)]

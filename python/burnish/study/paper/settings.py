@@ -3,15 +3,13 @@
 from dataclasses import dataclass
 
 from burnish import _core
-from burnish.rendering import Filter
+from burnish.filters import FILTERS as FILTERS
 
 MATCHED_MOST = 64
 """The largest count that `Matched` has a table for; it stands beside 270 regular samples."""
 
 SHARES = (0.25, 0.5, 1.0)
 """Shares of the screen that Fig. 7 covers with glossy material."""
-
-FILTERS: tuple[Filter, ...] = ("box", "gauss4", "gauss6")
 
 
 @dataclass(frozen=True)
