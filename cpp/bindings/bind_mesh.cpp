@@ -42,7 +42,7 @@ py::array_t<uint32_t> triangles_of(const Mesh& mesh) {
 } // namespace
 
 void bind_mesh(py::module_& m) {
-    py::class_<Mesh>(m, "Mesh", R"(Triangles. It does not change once made.
+    py::class_<Mesh, std::shared_ptr<Mesh>>(m, "Mesh", R"(Triangles. It does not change once made.
 
 Parameters
 ----------

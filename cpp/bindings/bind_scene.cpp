@@ -33,7 +33,7 @@ glm::dmat4 transform_of(const py::object& transform, const char* name) {
     return matrix;
 }
 
-uint32_t add(Scene& scene, const Mesh& mesh, const Material& material,
+uint32_t add(Scene& scene, const std::shared_ptr<Mesh>& mesh, const Material& material,
              const std::optional<py::object>& transform, std::string name) {
     Object object;
     object.world_from_object = transform ? transform_of(*transform, "transform") : glm::dmat4(1.0);
@@ -44,7 +44,7 @@ uint32_t add(Scene& scene, const Mesh& mesh, const Material& material,
                 message("name: expected a new name, got \"", object.name, "\" again"));
     object.mesh = static_cast<uint32_t>(scene.meshes.size());
     object.material = static_cast<uint32_t>(scene.materials.size());
-    scene.meshes.push_back(mesh);
+    scene.meshes.push_back(std::shared_ptr<const Mesh>(mesh)); // Python cannot change it
     scene.materials.push_back(material);
     scene.objects.push_back(std::move(object));
     return static_cast<uint32_t>(scene.objects.size() - 1);
@@ -98,7 +98,8 @@ void bind_scene(py::module_& m) {
     py::class_<Scene, std::shared_ptr<Scene>>(
         m, "Scene", R"(What there is to render: objects, materials, cameras and distant light.
 
-`Scene()` is empty; `add` fills it. Meshes, materials and cameras are values: the tuples hold copies.)")
+`Scene()` is empty; `add` fills it. Materials and cameras are values: the tuples hold copies. Meshes, which do
+not change, are shared.)")
         .def(py::init<>())
         .def_static(
             "from_file",
@@ -165,7 +166,7 @@ ValueError
             "A ball with a groove, on a foot, over a ground plane.\n\nParameters\n----------\nmaterial : "
             "Material\n"
             "ground : None or Material\n    None is diffuse grey.")
-        .def("add", &add, py::arg("mesh"), py::arg("material"), py::arg("transform") = py::none(),
+        .def("add", &add, py::arg("mesh").none(false), py::arg("material"), py::arg("transform") = py::none(),
              py::arg("name") = "",
              R"(Place a mesh.
 
@@ -209,7 +210,14 @@ index : int
             "Box around all objects in the world.\n\nReturns\n-------\nlow, high : (3,) tuples of float")
         .def_readwrite("name", &Scene::name, "Shown in reports.")
         .def_property_readonly(
-            "meshes", [](const Scene& x) { return py::tuple(py::cast(x.meshes)); }, "Tuple of Mesh.")
+            "meshes",
+            [](const Scene& x) {
+                py::tuple meshes(x.meshes.size());
+                for (size_t i = 0; i < x.meshes.size(); ++i)
+                    meshes[i] = std::const_pointer_cast<Mesh>(x.meshes.shared()[i]);
+                return meshes;
+            },
+            "Tuple of Mesh.")
         .def_property_readonly(
             "materials", [](const Scene& x) { return py::tuple(py::cast(x.materials)); },
             "Tuple of Material; `set_material` replaces one.")

@@ -1,13 +1,13 @@
 #include "burnish/render/gpu_scene.h"
 
+#include <algorithm>
 #include <cmath>
-#include <cstring>
 
 #include <glm/gtc/packing.hpp>
 
-#include "burnish/plan/material_traits.h"
 #include "burnish/render/mask_coverage.h"
 #include "burnish/render/octahedral.h"
+#include "burnish/render/scene_identity.h"
 #include "burnish/vulkan/device.h"
 #include "burnish/vulkan/transfer.h"
 
@@ -84,57 +84,9 @@ TextureVertex pack_texture_vertex(const Mesh& mesh, size_t k) {
     return vertex;
 }
 
-/// By mesh: whether some object's material asks for tangents that it lacks, yet has texture coordinates for.
-std::vector<bool> meshes_to_derive(const Scene& scene) {
-    std::vector<bool> result(scene.meshes.size(), false);
-    for (const Object& object : scene.objects) {
-        if (object.mesh >= scene.meshes.size() || object.material >= scene.materials.size()) continue;
-        const Mesh& mesh = scene.meshes[object.mesh];
-        if (mesh.tangents.empty() && !(mesh.uv0.empty() && mesh.uv1.empty()))
-            result[object.mesh] = result[object.mesh] || needs_tangent(scene.materials[object.material]);
-    }
-    return result;
-}
-
 Mesh derive_tangents(Mesh mesh) {
     compute_tangents(mesh, mesh.uv0.empty() ? 1 : 0);
     return mesh;
-}
-
-uint64_t mix(uint64_t hash, const void* data, size_t bytes) {
-    constexpr uint64_t factor = 0x9fb21c651e98df25ull;
-    const auto* next = static_cast<const unsigned char*>(data);
-    hash = (hash ^ bytes) * 0x9e3779b97f4a7c15ull;
-    // Every frame looks at all of the scene: four chains side by side, since one waits for its
-    // multiplications.
-    std::array<uint64_t, 4> lanes = {hash, hash + 1, hash + 2, hash + 3};
-    for (; bytes >= sizeof(lanes); bytes -= sizeof(lanes), next += sizeof(lanes)) {
-        std::array<uint64_t, 4> words;
-        std::memcpy(words.data(), next, sizeof(words));
-        for (size_t k = 0; k < lanes.size(); ++k) {
-            lanes[k] = (lanes[k] ^ words[k]) * factor;
-            lanes[k] ^= lanes[k] >> 32;
-        }
-    }
-    for (const uint64_t lane : lanes) {
-        hash = (hash ^ lane) * factor;
-        hash ^= hash >> 32;
-    }
-    for (; bytes >= 8; bytes -= 8, next += 8) {
-        uint64_t word;
-        std::memcpy(&word, next, 8);
-        hash = (hash ^ word) * factor;
-        hash ^= hash >> 32;
-    }
-    uint64_t last = 0;
-    if (bytes > 0)
-        std::memcpy(&last, next, bytes); // of no bytes the address may be null, which memcpy forbids
-    return (hash ^ last) * factor;
-}
-
-template <typename T>
-uint64_t mix(uint64_t hash, const std::vector<T>& values) {
-    return mix(hash, values.data(), values.size() * sizeof(T));
 }
 
 VkSamplerAddressMode address_mode(WrapMode mode) {
@@ -151,26 +103,8 @@ VkSamplerAddressMode address_mode(WrapMode mode) {
 
 } // namespace
 
-uint64_t fingerprint(const Scene& scene) {
-    uint64_t hash = scene.meshes.size() * 31 + scene.images.size();
-    for (const Mesh& mesh : scene.meshes) {
-        hash = mix(hash, mesh.positions);
-        hash = mix(hash, mesh.normals);
-        hash = mix(hash, mesh.tangents);
-        hash = mix(hash, mesh.uv0);
-        hash = mix(hash, mesh.uv1);
-        hash = mix(hash, mesh.colors);
-        hash = mix(hash, mesh.indices);
-    }
-    for (const bool is_derived : meshes_to_derive(scene))
-        hash = hash * 31 + (is_derived ? 1 : 0);
-    for (const TextureImage& image : scene.images)
-        hash = mix(hash ^ (uint64_t(image.width) << 32), image.rgba);
-    return hash;
-}
-
-GpuScene::GpuScene(const vulkan::DevicePointer& device, const Scene& scene)
-    : device_(device), pictures_(scene.images) {
+GpuScene::GpuScene(const vulkan::DevicePointer& device, const Scene& scene, Images known)
+    : device_(device), pictures_(scene.images.shared()), images_(std::move(known)) {
     upload_meshes(device, scene);
 }
 
@@ -206,17 +140,27 @@ void GpuScene::upload_meshes(const vulkan::DevicePointer& device, const Scene& s
         vulkan::make_buffer(device, std::as_bytes(std::span(indices)), VK_BUFFER_USAGE_INDEX_BUFFER_BIT);
 }
 
+GpuScene::Images GpuScene::images_of(const Scene& scene) const {
+    Images found;
+    for (const auto& [key, image] : images_) {
+        const TextureImage* picture = std::get<0>(key);
+        const auto is_it = [&](const auto& one) { return one.get() == picture; };
+        if (!picture || std::ranges::any_of(scene.images.shared(), is_it)) found.emplace(key, image);
+    }
+    return found;
+}
+
 uint64_t GpuScene::memory_bytes() const {
     uint64_t bytes = vertices_.size_bytes() + texture_vertices_.size_bytes() + indices_.size_bytes();
-    for (const TextureImage& picture : pictures_)
-        bytes += 5 * picture.rgba.size(); // here, and with 4/3 for its levels in three forms on the device
+    for (const auto& picture : pictures_)
+        bytes += 5 * picture->rgba.size(); // here, and with 4/3 for its levels in three forms on the device
     return bytes;
 }
 
 vulkan::Image GpuScene::upload_image(const TextureUse& use, bool is_srgb,
                                      std::optional<float> mask_cutoff) const {
     const TextureImage white{"white", 1, 1, {255, 255, 255, 255}};
-    const TextureImage& picture = use.is_used() ? pictures_[size_t(use.image)] : white;
+    const TextureImage& picture = use.is_used() ? *pictures_[size_t(use.image)] : white;
     vulkan::ImageSettings settings;
     settings.format = is_srgb ? VK_FORMAT_R8G8B8A8_SRGB : VK_FORMAT_R8G8B8A8_UNORM;
     settings.width = picture.width;
@@ -236,12 +180,17 @@ vulkan::Image GpuScene::upload_image(const TextureUse& use, bool is_srgb,
 }
 
 BoundTexture GpuScene::texture(const TextureUse& use, bool is_srgb, std::optional<float> mask_cutoff) {
-    ImageKey key(use.is_used() ? use.image : -1, use.is_used() && is_srgb, 0.0f, {}, {}, {});
+    const TextureImage* picture = use.is_used() ? pictures_[size_t(use.image)].get() : nullptr;
+    ImageKey key(picture, picture && is_srgb, 0.0f, {}, {}, {});
     if (mask_cutoff)
-        key = {use.image, is_srgb, *mask_cutoff, use.sampler.wrap_u, use.sampler.wrap_v, use.sampler.magnify};
+        key = {picture, is_srgb, *mask_cutoff, use.sampler.wrap_u, use.sampler.wrap_v, use.sampler.magnify};
     auto image = images_.find(key);
     if (image == images_.end())
-        image = images_.emplace(key, upload_image(use, std::get<1>(key), mask_cutoff)).first;
+        image =
+            images_
+                .emplace(key,
+                         std::make_shared<vulkan::Image>(upload_image(use, std::get<1>(key), mask_cutoff)))
+                .first;
     const std::array<int, 5> sampler_key = {int(use.sampler.wrap_u), int(use.sampler.wrap_v),
                                             int(use.sampler.magnify), int(use.sampler.minify),
                                             int(use.sampler.mip)};
@@ -260,7 +209,7 @@ BoundTexture GpuScene::texture(const TextureUse& use, bool is_srgb, std::optiona
             use.sampler.mip == MipFilter::none ? 0.25f : VK_LOD_CLAMP_NONE; // .25: keeps minification apart
         sampler = samplers_.emplace(sampler_key, vulkan::Sampler(device_, settings)).first;
     }
-    return {&image->second, &sampler->second};
+    return {image->second.get(), &sampler->second};
 }
 
 } // namespace burnish::render

@@ -36,7 +36,16 @@ public:
     static constexpr uint32_t VERTEX_BYTES = 20;
     static constexpr uint32_t TEXTURE_VERTEX_BYTES = 24;
 
-    GpuScene(const vulkan::DevicePointer& device, const Scene& scene);
+    /// By what their texels depend on: picture (null = white), is_srgb and, of those with coverage, cutoff,
+    /// wrapping and filter.
+    using ImageKey = std::tuple<const TextureImage*, bool, float, WrapMode, WrapMode, TextureFilter>;
+    using Images = std::map<ImageKey, std::shared_ptr<vulkan::Image>>;
+
+    /// `known`: images of the scene's pictures that other scenes have uploaded.
+    GpuScene(const vulkan::DevicePointer& device, const Scene& scene, Images known = {});
+
+    /// Those on the device whose pictures the scene has, too; and the white one.
+    Images images_of(const Scene& scene) const;
 
     const vulkan::Buffer& vertices() const { return vertices_; }
     /// Texture coordinates and colours; a single vertex of zeros when no mesh has any.
@@ -57,19 +66,13 @@ private:
     vulkan::Image upload_image(const TextureUse& use, bool is_srgb, std::optional<float> mask_cutoff) const;
 
     vulkan::DevicePointer device_;
-    std::vector<TextureImage> pictures_; // uploaded when first used
+    std::vector<std::shared_ptr<const TextureImage>> pictures_; // uploaded when first used
     vulkan::Buffer vertices_, texture_vertices_, indices_;
     bool has_texture_vertices_ = false;
     uint64_t triangle_count_ = 0;
     std::vector<MeshRange> meshes_;
-    /// By what their texels depend on: index (-1 = white), is_srgb and, of those with coverage, cutoff,
-    /// wrapping and filter.
-    using ImageKey = std::tuple<int32_t, bool, float, WrapMode, WrapMode, TextureFilter>;
-    std::map<ImageKey, vulkan::Image> images_;
+    Images images_;
     std::map<std::array<int, 5>, vulkan::Sampler> samplers_;
 };
-
-/// Changes when any vertex, index or texel of the scene does, or which meshes must derive their tangents.
-uint64_t fingerprint(const Scene& scene);
 
 } // namespace burnish::render

@@ -64,20 +64,31 @@ void Renderer::forget_old_scenes() {
     scenes_.erase(scenes_.begin(), scenes_.end() - std::ptrdiff_t(kept));
 }
 
+std::vector<Renderer::CachedScene>::iterator Renderer::add_scene(const Scene& scene, uint64_t fingerprint) {
+    validate(scene);
+    GpuScene::Images known;
+    for (const CachedScene& other : scenes_)
+        known.merge(other.scene->images_of(scene));
+    forget_old_scenes();
+    auto made = needing_memory_for(
+        message("a scene of ", scene.meshes.size(), " meshes and ", scene.images.size(), " textures"),
+        [&] { return std::make_unique<GpuScene>(device_, scene, known); });
+    scenes_.push_back({SceneIdentity(scene), fingerprint, std::move(made)});
+    return scenes_.end() - 1;
+}
+
 GpuScene& Renderer::prepare_scene(const Scene& scene) {
-    const uint64_t wanted = fingerprint(scene);
-    const auto found = std::find_if(scenes_.begin(), scenes_.end(),
-                                    [&](const CachedScene& one) { return one.fingerprint == wanted; });
-    if (found != scenes_.end()) {
-        std::rotate(found, found + 1, scenes_.end());
-    } else {
-        validate(scene);
-        forget_old_scenes();
-        scenes_.push_back(
-            {wanted, needing_memory_for(message("a scene of ", scene.meshes.size(), " meshes and ",
-                                                scene.images.size(), " textures"),
-                                        [&] { return std::make_unique<GpuScene>(device_, scene); })});
+    auto found =
+        std::ranges::find_if(scenes_, [&](const CachedScene& one) { return one.identity.is_of(scene); });
+    if (found == scenes_.end()) {
+        const uint64_t wanted = fingerprint(scene);
+        found = std::ranges::find(scenes_, wanted, &CachedScene::fingerprint);
+        if (found != scenes_.end())
+            found->identity = SceneIdentity(scene);
+        else
+            found = add_scene(scene, wanted);
     }
+    std::rotate(found, found + 1, scenes_.end());
     // Objects and materials may change without the meshes: their indices are checked each time.
     for (const Object& object : scene.objects)
         if (object.mesh >= scene.meshes.size() || object.material >= scene.materials.size())

@@ -17,6 +17,7 @@
 #include "burnish/render/gpu_scene.h"
 #include "burnish/render/pipelines.h"
 #include "burnish/render/pyramid.h"
+#include "burnish/render/scene_identity.h"
 #include "burnish/render/shade_pass.h"
 #include "burnish/render/shade_tables.h"
 #include "burnish/render/target_pool.h"
@@ -111,7 +112,8 @@ private:
     };
 
     struct CachedScene {
-        uint64_t fingerprint = 0;
+        SceneIdentity identity;
+        uint64_t fingerprint; ///< for scenes of other parts that hold the same
         std::unique_ptr<GpuScene> scene;
     };
 
@@ -157,6 +159,7 @@ private:
     void forget_old_scenes();
     /// Gives back maps of living environments, those used longest ago first, while all are large.
     void forget_old_maps();
+    std::vector<CachedScene>::iterator add_scene(const Scene& scene, uint64_t fingerprint);
     GpuScene& prepare_scene(const Scene& scene);
     const vulkan::Buffer& prepare_alias(const std::vector<std::shared_ptr<const Environment>>& environments);
     ReferenceBuffers make_reference_buffers(const Scene& scene, const Plan& plan, uint64_t points);

@@ -11,6 +11,7 @@
 #include "burnish/scene/camera.h"
 #include "burnish/scene/material.h"
 #include "burnish/scene/mesh.h"
+#include "burnish/scene/shared_parts.h"
 #include "burnish/scene/texture.h"
 
 namespace burnish {
@@ -34,9 +35,9 @@ struct Bounds {
 
 struct Scene {
     std::string name;
-    std::vector<Mesh> meshes;
+    SharedParts<Mesh> meshes;
     std::vector<Material> materials;
-    std::vector<TextureImage> images;
+    SharedParts<TextureImage> images;
     std::vector<Object> objects;
     std::vector<Camera> cameras;
     std::shared_ptr<const Environment> environment;
