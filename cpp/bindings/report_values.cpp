@@ -72,6 +72,9 @@ py::dict report_dict(const render::Report& report) {
     result["effects"] = effects_list(report.effects);
     result["classes"] = classes;
     result["triangles"] = report.triangles;
+    result["uploads"] =
+        py::dict(py::arg("meshes") = report.uploads.meshes, py::arg("textures") = report.uploads.textures,
+                 py::arg("maps") = report.uploads.maps);
     result["stopped"] = stopped_list(report);
     result["diffuse_error"] = report.diffuse_error;
     result["standard_error"] = report.standard_error;

@@ -30,7 +30,7 @@ class Report:
     ----------
     data : mapping
         As the renderer fills it: version, device, size, spp, filter, sampler, passes, compile_ms, wall_ms,
-        effects, classes, stopped, diffuse_error, standard_error, warnings, ignored_extensions; prediction
+        effects, classes, stopped, uploads, diffuse_error, standard_error, warnings, ignored_extensions; prediction
         where an error was asked for.
     """
 
@@ -100,6 +100,14 @@ class Report:
     def non_finite(self) -> int:
         """Values that all passes stopped."""
         return sum(int(entry["count"]) for entry in self.stopped)
+
+    @property
+    def uploads(self) -> dict[str, int]:
+        """What had to be brought to the device: ``meshes``, ``textures`` and ``maps``, whose levels were made.
+
+        All 0 where an earlier picture left everything there. A texture that is read in two encodings counts twice.
+        """
+        return {name: int(count) for name, count in self._data.get("uploads", {}).items()}
 
     @property
     def diffuse_error(self) -> float:

@@ -109,6 +109,32 @@ void EnvironmentMaps::replace(
     pass_times_ = std::move(times);
 }
 
+void EnvironmentMaps::grow(MapTools& tools, uint32_t cube_count) {
+    const render::Stopwatch watch;
+    vulkan::ImageSettings settings = room_.image.settings();
+    const uint32_t old_layers = settings.layers;
+    settings.layers = 6 * cube_count;
+    MapRoom room = tools.take_room(settings, settings_.lookup);
+    vulkan::Commands commands(tools.device());
+    commands.transition(room_.image, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL);
+    commands.transition(room.image, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL);
+    std::vector<VkImageCopy> copies(settings.levels);
+    for (uint32_t level = 0; level < settings.levels; ++level) {
+        copies[level].srcSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, level, 0, old_layers};
+        copies[level].dstSubresource = copies[level].srcSubresource;
+        copies[level].extent = {room.image.level_width(level), room.image.level_height(level), 1};
+    }
+    vkCmdCopyImage(commands.handle(), room_.image.handle(), room_.image.layout(), room.image.handle(),
+                   room.image.layout(), settings.levels, copies.data());
+    commands.transition(room.image, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
+    if (settings_.lookup != MapLookup::sampler)
+        commands.copy_buffer(room_.pairs.buffer(), room.pairs.buffer(), room_.pairs.buffer().size_bytes());
+    commands.submit();
+    room_ = std::move(room);
+    half_exponents_.resize(cube_count);
+    pass_times_ = {{"upload", watch.milliseconds()}};
+}
+
 void EnvironmentMaps::make(MapTools& tools, uint32_t first_cube, EnvironmentSpan environments) {
     const std::shared_ptr<const vulkan::Device>& device = tools.device();
     const auto cube_count = static_cast<uint32_t>(environments.size());

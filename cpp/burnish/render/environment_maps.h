@@ -71,6 +71,10 @@ public:
     void replace(MapTools& tools,
                  std::span<const std::pair<uint32_t, std::shared_ptr<const Environment>>> changed);
 
+    /// Makes room for more cubes, which hold nothing yet; those there are stay what they are. What was read
+    /// before must be done.
+    void grow(MapTools& tools, uint32_t cube_count);
+
     /// The packed maps; a single pair where they were not packed.
     const vulkan::ElementBuffer& pairs() const { return room_.pairs; }
 

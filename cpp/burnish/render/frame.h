@@ -25,6 +25,11 @@ struct StoppedValues {
     std::string sentence;
 };
 
+/// What had to be brought to the device for a frame; nothing where all of it was there.
+struct Uploads {
+    uint32_t meshes = 0, textures = 0, maps = 0;
+};
+
 /// What a frame cost and did. Times are milliseconds by the device's clock unless said otherwise.
 struct Report {
     std::string device_name, device_driver;
@@ -40,6 +45,7 @@ struct Report {
     std::vector<EffectLine> effects;
     std::vector<ClassReport> classes;
     uint64_t triangles = 0;
+    Uploads uploads;
     std::vector<StoppedValues> stopped; ///< by pass; empty when all was finite
     double diffuse_error = 0.0;         ///< relative RMSE of the light on diffuse surfaces, the worst map's
     double standard_error = 0.0;        ///< relative, reached by a progressive reference; else 0

@@ -185,12 +185,14 @@ BoundTexture GpuScene::texture(const TextureUse& use, bool is_srgb, std::optiona
     if (mask_cutoff)
         key = {picture, is_srgb, *mask_cutoff, use.sampler.wrap_u, use.sampler.wrap_v, use.sampler.magnify};
     auto image = images_.find(key);
-    if (image == images_.end())
+    if (image == images_.end()) {
+        uploads_ += picture ? 1 : 0;
         image =
             images_
                 .emplace(key,
                          std::make_shared<vulkan::Image>(upload_image(use, std::get<1>(key), mask_cutoff)))
                 .first;
+    }
     const std::array<int, 5> sampler_key = {int(use.sampler.wrap_u), int(use.sampler.wrap_v),
                                             int(use.sampler.magnify), int(use.sampler.minify),
                                             int(use.sampler.mip)};

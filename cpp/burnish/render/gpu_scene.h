@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 #include "burnish/scene/scene.h"
@@ -60,6 +61,8 @@ public:
     /// The picture decoded from sRGB or not, with mip levels; a white texel for an unused texture. With a
     /// cutoff in (0, 1] alpha of all levels but the first is coverage (mask_coverage.h).
     BoundTexture texture(const TextureUse& use, bool is_srgb, std::optional<float> mask_cutoff);
+    /// Textures uploaded since the last call.
+    uint32_t take_uploads() { return std::exchange(uploads_, 0); }
 
 private:
     void upload_meshes(const vulkan::DevicePointer& device, const Scene& scene);
@@ -72,6 +75,7 @@ private:
     uint64_t triangle_count_ = 0;
     std::vector<MeshRange> meshes_;
     Images images_;
+    uint32_t uploads_ = 0;
     std::map<std::array<int, 5>, vulkan::Sampler> samplers_;
 };
 

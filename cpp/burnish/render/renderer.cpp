@@ -40,6 +40,7 @@ std::unique_lock<std::mutex> Renderer::enter() {
     device_->require_usable(); // before the mutex, which a fork may have left locked
     std::unique_lock lock(mutex_);
     pipelines_.begin_picture();
+    uploads_ = {};
     return lock;
 }
 
@@ -73,6 +74,7 @@ std::vector<Renderer::CachedScene>::iterator Renderer::add_scene(const Scene& sc
     auto made = needing_memory_for(
         message("a scene of ", scene.meshes.size(), " meshes and ", scene.images.size(), " textures"),
         [&] { return std::make_unique<GpuScene>(device_, scene, known); });
+    uploads_.meshes += uint32_t(scene.meshes.size());
     scenes_.push_back({SceneIdentity(scene), fingerprint, std::move(made)});
     return scenes_.end() - 1;
 }
@@ -121,6 +123,7 @@ Frame Renderer::draw(const Scene& scene, const Camera& camera, const RenderSetti
         frame->report.problems.push_back("radiance that is not finite, or more than a float32 in all: the "
                                          "picture was drawn twice, passes are of the second time");
     }
+    frame->report.uploads = uploads_;
     frame->report.wall_ms = wall.milliseconds();
     return std::move(*frame);
 }
@@ -153,9 +156,12 @@ std::unique_ptr<FrameWork> Renderer::prepare_frame(const Scene& scene, const Cam
     GpuScene& gpu_scene = prepare_scene(scene);
     auto work = std::make_unique<FrameWork>();
     Plan& plan = work->plan = make_plan(scene, settings.plan);
-    work->tables = make_shade_tables(device_, scene, plan, tables_, diffuse_);
+    std::vector<vulkan::PassTime> map_times;
+    PreparedMaps maps = prepare_maps(plan, map_times);
+    work->maps = std::move(maps.sets);
+    work->tables = make_shade_tables(device_, scene, plan, maps.layers, tables_, diffuse_);
     work->times = work->tables.pass_times;
-    work->maps = prepare_maps(plan, work->times);
+    add_pass_times(work->times, map_times);
     work->counts_non_finite = counts_non_finite;
 
     Frame& frame = work->frame;
@@ -172,6 +178,7 @@ std::unique_ptr<FrameWork> Renderer::prepare_frame(const Scene& scene, const Cam
     frame.report.triangles = gpu_scene.triangle_count();
     if (plan.sampler.is_truth) work->reference = make_reference_buffers(scene, plan, work->pixels());
     make_frame_passes(*work, scene, gpu_scene);
+    uploads_.textures += gpu_scene.take_uploads();
     frame.report.compile_ms = pipelines_.take_compile_ms();
     frame.report.prepare_ms = watch.milliseconds() - frame.report.compile_ms;
     return work;

@@ -15,6 +15,7 @@
 #include "burnish/render/frame.h"
 #include "burnish/render/frame_work.h"
 #include "burnish/render/gpu_scene.h"
+#include "burnish/render/map_store.h"
 #include "burnish/render/pipelines.h"
 #include "burnish/render/pyramid.h"
 #include "burnish/render/scene_identity.h"
@@ -95,20 +96,9 @@ public:
     double time_blits(const std::shared_ptr<const Environment>& environment);
 
 private:
-    struct WantedMaps {
-        std::vector<std::shared_ptr<const Environment>> environments;
-        MapSettings settings;
-    };
-    using ChangedPlaces = std::vector<std::pair<uint32_t, std::shared_ptr<const Environment>>>;
-    struct CachedMaps {
-        std::vector<std::weak_ptr<const Environment>> environments;
-        MapSettings settings;
-        std::shared_ptr<EnvironmentMaps> maps;
-
-        bool is_expired() const;
-        /// Where they have to be made anew to be those that are wanted. None where that cannot be: others are
-        /// as many, as large and made alike, and nothing wants those any more that would be lost.
-        std::optional<ChangedPlaces> changed_places(const WantedMaps& wanted) const;
+    struct PreparedMaps {
+        std::vector<std::shared_ptr<EnvironmentMaps>> sets; ///< by map set of the plan
+        std::vector<uint32_t> layers;                       ///< by environment of the plan, in its set
     };
 
     struct CachedScene {
@@ -152,13 +142,10 @@ private:
                                         const Material& material, const ShadePoints& points,
                                         const PlanSettings& settings, Report* report,
                                         const Progress& progress);
-    std::vector<std::shared_ptr<EnvironmentMaps>> prepare_maps(const Plan& plan,
-                                                               std::vector<vulkan::PassTime>& times);
+    PreparedMaps prepare_maps(const Plan& plan, std::vector<vulkan::PassTime>& times);
     Plan make_plan(const Scene& scene, const PlanSettings& settings);
     /// Makes room for one more.
     void forget_old_scenes();
-    /// Gives back maps of living environments, those used longest ago first, while all are large.
-    void forget_old_maps();
     std::vector<CachedScene>::iterator add_scene(const Scene& scene, uint64_t fingerprint);
     GpuScene& prepare_scene(const Scene& scene);
     const vulkan::Buffer& prepare_alias(const std::vector<std::shared_ptr<const Environment>>& environments);
@@ -180,7 +167,8 @@ private:
     DiffuseLights diffuse_;
     SunCache suns_;
     std::vector<CachedScene> scenes_; // the last used last
-    std::vector<CachedMaps> maps_;    // the last used last
+    MapStore maps_;
+    Uploads uploads_; // of the call that runs
     std::shared_ptr<TargetPool> targets_;
     std::vector<std::weak_ptr<const Environment>> alias_environments_;
     vulkan::Buffer alias_;

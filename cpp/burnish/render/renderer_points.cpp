@@ -48,9 +48,11 @@ std::vector<glm::vec3> Renderer::shade_points(const std::shared_ptr<const Enviro
     scene.materials[0].source.reset(); // points carry no texture coordinates: its factors hold everywhere
     scene.objects.emplace_back();
     const Plan plan = make_plan(scene, settings);
-    const ShadeTables tables = make_shade_tables(device_, scene, plan, tables_, diffuse_);
+    std::vector<vulkan::PassTime> map_times;
+    const PreparedMaps maps = prepare_maps(plan, map_times);
+    const ShadeTables tables = make_shade_tables(device_, scene, plan, maps.layers, tables_, diffuse_);
     std::vector<vulkan::PassTime> times = tables.pass_times;
-    const std::vector<std::shared_ptr<EnvironmentMaps>> maps = prepare_maps(plan, times);
+    add_pass_times(times, map_times);
 
     std::vector<shared::SurfacePoint> records(count);
     for (size_t k = 0; k < count; ++k)
@@ -68,7 +70,7 @@ std::vector<glm::vec3> Renderer::shade_points(const std::shared_ptr<const Enviro
     ShadeInputs inputs{nullptr, &point_buffer, uint32_t(count), &radiance, &counters};
     inputs.counts_non_finite = reference.has_value();
     for (;; inputs.counts_non_finite = true) {
-        const ShadePass shade(pipelines_, plan, tables, maps, inputs, placeholders_,
+        const ShadePass shade(pipelines_, plan, tables, maps.sets, inputs, placeholders_,
                               reference ? &*reference : nullptr);
         vulkan::Commands commands(device_);
         shade.record_start(commands);
@@ -83,6 +85,7 @@ std::vector<glm::vec3> Renderer::shade_points(const std::shared_ptr<const Enviro
     if (inputs.counts_non_finite) add_stopped(local, counters);
     times.insert(times.end(), local.passes.begin(), local.passes.end());
     local.passes = std::move(times);
+    local.uploads = uploads_;
     local.wall_ms = wall.milliseconds();
     if (report) *report = std::move(local);
     return {result.begin(), result.end()};

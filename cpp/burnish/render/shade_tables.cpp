@@ -109,7 +109,8 @@ int emissive_exponent(const Material& material) {
 }
 
 ShadeTables make_shade_tables(const vulkan::DevicePointer& device, const Scene& scene, const Plan& plan,
-                              TableCache& cache, DiffuseLights& diffuse) {
+                              const std::vector<uint32_t>& layers, TableCache& cache,
+                              DiffuseLights& diffuse) {
     TableWriter writer(plan, cache);
     std::vector<shared::MaterialRecord> materials;
     std::vector<shared::LobeRecord> lobes;
@@ -169,11 +170,8 @@ ShadeTables make_shade_tables(const vulkan::DevicePointer& device, const Scene& 
     for (const DiffuseLight& light : lights)
         tables.diffuse_error = std::max(tables.diffuse_error, light.error);
     std::vector<shared::MapRecord> maps(plan.environments.size());
-    for (const MapSet& set : plan.map_sets)
-        for (uint32_t layer = 0; layer < set.environments.size(); ++layer) {
-            const uint32_t k = set.environments[layer];
-            maps[k] = map_record(*plan.environments[k], layer, lights[k].harmonics, plan.suns[k]);
-        }
+    for (size_t k = 0; k < maps.size(); ++k)
+        maps[k] = map_record(*plan.environments[k], layers[k], lights[k].harmonics, plan.suns[k]);
 
     set_statistics_scales(maps);
 

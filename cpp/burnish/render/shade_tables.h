@@ -30,7 +30,8 @@ struct ShadeTables {
 /// Of the unit in which the wide G-buffer's halves hold a material's emission where a texture varies it.
 int emissive_exponent(const Material& material);
 
+/// `layers`: by environment of the plan, its place among the maps of its size.
 ShadeTables make_shade_tables(const vulkan::DevicePointer& device, const Scene& scene, const Plan& plan,
-                              TableCache& cache, DiffuseLights& diffuse);
+                              const std::vector<uint32_t>& layers, TableCache& cache, DiffuseLights& diffuse);
 
 } // namespace burnish::render

@@ -98,3 +98,59 @@ def test_a_map_that_is_wanted_elsewhere_is_not_overwritten(device):
     assert not np.array_equal(burnish.render(scene, size=(40, 60), device=device).color, before)
     scene.objects[1].reflects = maps[1]
     np.testing.assert_array_equal(burnish.render(scene, size=(40, 60), device=device).color, before)
+
+
+def spots(seed):
+    return burnish.environments.spots(face_size=16, seed=seed)
+
+
+def draw_maps(maps, device, sampler):
+    """The picture of as many spheres, and how many maps were made for it."""
+    frame = burnish.render(scene_of_maps(maps), size=(40, 60), sampler=sampler, device=device)
+    return frame.color.copy(), frame.report.uploads["maps"]
+
+
+@pytest.mark.parametrize("lookup", ["sampler", "software"])
+@pytest.mark.parametrize("sampler", [burnish.Matched(8), burnish.Regular(8), burnish.Prefiltered()])
+def test_maps_that_come_and_go_cost_only_what_is_new(lookup, sampler):
+    """One by one to more than twice as many, then fewer, others in their place, and another order."""
+    device = burnish.Device(lookup=lookup)
+    maps = [spots(seed) for seed in range(3)]
+    assert draw_maps(maps, device, sampler)[1] == 3
+    for seed in range(3, 8):
+        maps.append(spots(seed))
+        color, made = draw_maps(maps, device, sampler)
+        assert made == 1
+        np.testing.assert_array_equal(color, draw_maps(maps, burnish.Device(lookup=lookup), sampler)[0])
+    del maps[2:4]
+    assert draw_maps(maps, device, sampler)[1] == 0
+    maps[1:1] = [spots(20), spots(21), spots(22)]
+    color, made = draw_maps(maps, device, sampler)
+    assert made == 3
+    np.testing.assert_array_equal(color, draw_maps(maps, burnish.Device(lookup=lookup), sampler)[0])
+    maps.reverse()
+    color, made = draw_maps(maps, device, sampler)
+    assert made == 0
+    np.testing.assert_array_equal(color, draw_maps(maps, burnish.Device(lookup=lookup), sampler)[0])
+
+
+def test_maps_that_take_turns_are_made_once():
+    device = burnish.Device()
+    maps = [spots(seed) for seed in range(6)]
+    made = [draw_maps(maps[k : k + 3], device, burnish.Regular(8))[1] for k in (0, 1, 2, 3, 0, 3)]
+    assert made == [3, 1, 1, 1, 0, 0]
+
+
+def test_texels_beyond_a_buffer_are_read_otherwise_when_one_more_map_comes(monkeypatch):
+    """The seventh map is one too many for a texel buffer: all go to a storage buffer."""
+    monkeypatch.setenv("BURNISH_TEXEL_LIMIT", "18000")  # a map of faces of 16 has 2,716 pairs
+    device = burnish.Device(lookup="software")
+    maps = [spots(seed) for seed in range(5)]
+    made = [draw_maps(maps, device, burnish.Regular(8))[1]]
+    for seed in range(5, 8):
+        maps.append(spots(seed))
+        color, count = draw_maps(maps, device, burnish.Regular(8))
+        made.append(count)
+        fresh = draw_maps(maps, burnish.Device(lookup="software"), burnish.Regular(8))[0]
+        np.testing.assert_array_equal(color, fresh)
+    assert made == [5, 1, 7, 1]
