@@ -30,8 +30,8 @@ class Report:
     ----------
     data : mapping
         As the renderer fills it: version, device, size, spp, filter, sampler, passes, compile_ms, wall_ms,
-        effects, classes, stopped, uploads, diffuse_error, standard_error, warnings, ignored_extensions; prediction
-        where an error was asked for.
+        effects, classes, stopped, uploads, diffuse_error, standard_error, warnings, ignored_extensions;
+        prediction where an error was asked for.
     """
 
     def __init__(self, data: Mapping[str, Any]) -> None:
@@ -103,9 +103,9 @@ class Report:
 
     @property
     def uploads(self) -> dict[str, int]:
-        """What had to be brought to the device: ``meshes``, ``textures`` and ``maps``, whose levels were made.
+        """What was brought to the device: counts of ``meshes``, ``textures`` and ``maps``.
 
-        All 0 where an earlier picture left everything there. A texture that is read in two encodings counts twice.
+        All 0 where an earlier picture left everything there. A texture read in two encodings counts twice.
         """
         return {name: int(count) for name, count in self._data.get("uploads", {}).items()}
 
