@@ -92,12 +92,13 @@ void leave_out_idle_lobes(Material& material) {
 }
 
 void leave_out_idle_textures(Scene& scene) {
-    for (Mesh& mesh : scene.meshes)
-        if (std::ranges::all_of(mesh.colors, [](glm::vec4 color) { return color == glm::vec4(1.0f); }))
-            mesh.colors.clear();
+    std::vector<bool> is_coloured;
+    for (const Mesh& mesh : scene.meshes)
+        is_coloured.push_back(
+            std::ranges::any_of(mesh.colors, [](glm::vec4 color) { return color != glm::vec4(1.0f); }));
     std::vector<bool> has_colors(scene.materials.size(), false);
     for (const Object& object : scene.objects)
-        if (!scene.meshes[object.mesh].colors.empty()) has_colors[object.material] = true;
+        if (is_coloured[object.mesh]) has_colors[object.material] = true;
     for (size_t index = 0; index < scene.materials.size(); ++index) {
         Material& material = scene.materials[index];
         if (!material.source) continue;
