@@ -1,18 +1,21 @@
 """Scenes and their cameras by name."""
 
 from pathlib import Path
+from typing import Literal
 
 from burnish import builtin
 from burnish._core import Camera, Scene
 
 
-def open_scene(name: str) -> Scene:
+def open_scene(name: str, model: Literal["ggx", "kurt"] = "ggx") -> Scene:
     """Make the built-in scene of that name, or load a glTF file.
 
     Parameters
     ----------
     name : str
         A key of `builtin.SCENES`, or a path.
+    model : str
+        Of the materials of a file, see `Scene.from_file`.
 
     Raises
     ------
@@ -23,7 +26,7 @@ def open_scene(name: str) -> Scene:
         return builtin.make_scene(name)
     if Path(name).suffix == "" and not Path(name).exists():
         raise ValueError(f"SCENE: expected a file or one of {', '.join(builtin.SCENES)}, got {name!r}")
-    return Scene.from_file(name)
+    return Scene.from_file(name, model)
 
 
 def find_camera(scene: Scene, key: str | None) -> Camera | None:

@@ -81,6 +81,12 @@ def add_scene_arguments(parser: argparse.ArgumentParser, has_sampler: bool = Tru
         "--rotate-env", type=float, default=0.0, metavar="DEG", help="turn the light about +y"
     )
     parser.add_argument("--face-size", type=int, metavar="N", help="texels along a cube face, a power of two")
+    parser.add_argument(
+        "--model",
+        choices=("ggx", "kurt"),
+        default="ggx",
+        help="lobes of a glTF file's materials: ggx in layers, as glTF means it, or kurt's that add up",
+    )
     parser.add_argument("--no-background", action="store_true", help="leave black where no object is")
 
 

@@ -52,7 +52,7 @@ def prepare_scene(options: argparse.Namespace) -> Scene:
         Of a command with `add_scene_arguments`.
     """
     with progress_bar(f"loading {Path(options.scene).name}"):
-        scene = open_scene(options.scene)
+        scene = open_scene(options.scene, options.model)
     scene.environment = open_environment(
         options.env, options.face_size, options.rotate_env, options.env_part, options.env_layer
     )

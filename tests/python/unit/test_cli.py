@@ -15,6 +15,7 @@ from burnish.cli.arguments import parse_size
 from burnish.cli.inputs import prepare_scene
 from burnish.samplers import sampler_from_text as parse_sampler
 from burnish.scenes import find_camera
+from textured_quad import write_quad
 
 
 def run(*arguments):
@@ -164,6 +165,15 @@ def test_background_can_be_left_out(tmp_path):
     )
     assert (result.returncode, result.stdout) == (0, "")
     assert (burnish.images.read_image(path)[0, 0, :3] == 0).all()
+
+
+@pytest.mark.parametrize(("model", "title"), [("ggx", "on:"), ("kurt", "off:")])
+def test_model_of_a_files_materials_is_chosen(model, title, tmp_path):
+    write_quad(tmp_path / "quad.gltf", {"pbrMetallicRoughness": {"metallicFactor": 0.0}}, [])
+    result = run("explain", tmp_path / "quad.gltf", "--face-size", "16", "--model", model)
+    assert result.returncode == 0, result.stderr
+    blocks = {block.splitlines()[0]: block for block in result.stdout.split("\n\n")}
+    assert "layers" in blocks[title]
 
 
 @pytest.mark.parametrize("scene", ["sphere", "spheres", "plane", "shaderball"])
