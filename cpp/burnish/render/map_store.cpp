@@ -1,6 +1,7 @@
 #include "burnish/render/map_store.h"
 
 #include <algorithm>
+#include <unordered_map>
 
 #include "burnish/error.h"
 #include "burnish/render/frame.h"
@@ -36,12 +37,16 @@ std::optional<MapStore::Placement> MapStore::place(const Array& array, const Wan
     Placement result;
     result.layers.assign(wanted.environments.size(), uint32_t(count));
     std::vector<bool> is_kept(count, false);
-    for (size_t k = 0; k < wanted.environments.size(); ++k)
-        for (uint32_t slot = 0; slot < count && result.layers[k] == count; ++slot)
-            if (array.slots[slot].environment.lock() == wanted.environments[k]) {
-                result.layers[k] = slot;
-                is_kept[slot] = true;
-            }
+    std::unordered_map<const Environment*, uint32_t> slot_of; // every frame asks, of hundreds of maps too
+    for (uint32_t slot = 0; slot < count; ++slot)
+        if (const auto environment = array.slots[slot].environment.lock())
+            slot_of.emplace(environment.get(), slot);
+    for (size_t k = 0; k < wanted.environments.size(); ++k) {
+        const auto slot = slot_of.find(wanted.environments[k].get());
+        if (slot == slot_of.end()) continue;
+        result.layers[k] = slot->second;
+        is_kept[slot->second] = true;
+    }
     // Nothing would be kept: they are as well made together.
     if (std::ranges::none_of(is_kept, [](bool kept) { return kept; })) return std::nullopt;
 
