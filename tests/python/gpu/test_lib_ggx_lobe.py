@@ -99,6 +99,42 @@ def test_ggx_normal(device, rng):
     assert_close("q", result[:, 3], q, 80 * ULP * q / np.maximum(height, 1e-3) + 1e-6 * q, o=o, p=p, a=a)
 
 
+def test_ggx_disc(device, rng):
+    o, a = views(rng, 4000), roughnesses(rng, 4000)
+    result = probe(device, "ggx_disc", o, 0.0, a).astype(float)
+    stretched = o * np.concatenate([a.astype(float), np.ones((len(a), 1))], axis=-1)
+    view = stretched / np.linalg.norm(stretched, axis=-1, keepdims=True)
+    sine = np.hypot(view[:, 0], view[:, 1])
+    np.testing.assert_allclose(result[:, 0, :3], view, atol=4 * ULP)
+    np.testing.assert_allclose(result[:, 0, 3], 0.5 * (1 + view[:, 2]), atol=4 * ULP)
+    # The rest has all its digits where the disc is nearly whole.
+    rest = 0.5 * sine**2 / (1 + view[:, 2])
+    np.testing.assert_allclose(result[:, 1, 3], rest, rtol=16 * ULP, atol=LEAST_NORMAL)
+    turned = sine > 1e-6
+    level = np.stack([-view[:, 1], view[:, 0]], axis=-1)[turned] / sine[turned, None]
+    np.testing.assert_allclose(result[turned, 2, :2], level, atol=8 * ULP)
+    other = np.cross(view[turned], np.concatenate([level, np.zeros((len(level), 1))], axis=-1))
+    np.testing.assert_allclose(result[turned, 1, :3], other, atol=16 * ULP)
+
+
+def test_ggx_linear_map(device, rng):
+    """Two columns across the direction: their products are those of any two other axes."""
+    o, a = views(rng, 4000), roughnesses(rng, 4000)
+    # Narrower ones differ by less than a view's rounding.
+    a = np.maximum(a, np.float32(1e-4))
+    result = probe(device, "ggx_linear_map", o, 0.0, a)[:, :2, :3].astype(float)
+    got = result @ np.swapaxes(result, 1, 2)
+    maps = per_item(
+        lambda o, a: ggx.linear_map(o, ggx.GgxLobe(tuple(a)), np.zeros(2), np.diag(a)),
+        o.astype(float),
+        a.astype(float),
+    )
+    expected = np.swapaxes(maps, 1, 2) @ maps
+    size = np.sqrt(np.einsum("nii->ni", expected))
+    error = np.abs(got - expected) / (size[:, :, None] * size[:, None, :])
+    assert error.max() < 1e-3, (o[error.max((1, 2)).argmax()], a[error.max((1, 2)).argmax()])
+
+
 def test_sample_ggx(device, rng):
     o, a = views(rng), roughnesses(rng)
     x = rows([(0, 0), (1, 0.5), (0.5, 1)], rng.random((COUNT - 3, 2)))

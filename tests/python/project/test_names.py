@@ -8,7 +8,7 @@ from pathlib import Path
 import burnish.oracle
 
 REPOSITORY = Path(__file__).resolve().parents[3]
-FUNCTION = re.compile(r"^(?:void|bool|u?int|float|u?vec[234]|mat[234])\s+(\w+)\s*\(", re.MULTILINE)
+FUNCTION = re.compile(r"^(?:void|bool|u?int|float|u?vec[234]|mat[234](?:x[234])?)\s+(\w+)\s*\(", re.MULTILINE)
 
 # Twins under another name: why it differs.
 NAMED_OTHERWISE = {
@@ -27,6 +27,7 @@ NAMED_OTHERWISE = {
     "kurt_value": ("kurt_brdf", "without Fresnel and weight, which the kernel applies to colours"),
     "sample_ggx": ("ggx_sample", "sampling triples are spelled differently on the two sides"),
     "ggx_pdf": ("ggx_pdf_omega_i", "of directions, the only one that there is"),
+    "ggx_linear_map": ("linear_map", "models are modules in the oracle"),
     "ggx_rest": ("rest", "models are modules in the oracle"),
     "ggx_widened_d": ("widened_d", "models are modules in the oracle"),
     "kurt_widened_d": ("widened_d", "models are modules in the oracle"),
@@ -39,8 +40,10 @@ NAMED_OTHERWISE = {
 # Functions without a twin: why none is needed.
 WITHOUT_TWIN = {
     f"lobe_{name}": "the switch between models, which are modules in the oracle"
-    for name in ("d", "rest", "sample", "pdf", "widened_d", "filter_slope")
-} | {"has_fixed_half_vectors": "the oracle places any pattern in a plane"}
+    for name in ("d", "rest", "sample", "pdf", "linear_map", "widened_d", "filter_slope")
+} | {
+    "has_fixed_half_vectors": "the oracle places any pattern in a plane",
+}
 
 
 def glsl_functions():
