@@ -13,7 +13,7 @@ uint64_t mix(uint64_t hash, const void* data, size_t bytes) {
     constexpr uint64_t factor = 0x9fb21c651e98df25ull;
     const auto* next = static_cast<const unsigned char*>(data);
     hash = (hash ^ bytes) * 0x9e3779b97f4a7c15ull;
-    // Every frame looks at all of the scene: four chains side by side, since one waits for its
+    // A scene may have millions of vertices: four chains side by side, since one waits for its
     // multiplications.
     std::array<uint64_t, 4> lanes = {hash, hash + 1, hash + 2, hash + 3};
     for (; bytes >= sizeof(lanes); bytes -= sizeof(lanes), next += sizeof(lanes)) {

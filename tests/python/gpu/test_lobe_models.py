@@ -185,7 +185,7 @@ AT_POINTS = {
 
 
 @pytest.mark.parametrize("name", AT_POINTS)
-@pytest.mark.parametrize("samples", [2, 5, 14, 64])
+@pytest.mark.parametrize("samples", [5, 64])
 def test_mixtures_at_points_equal_the_oracle(device, spots64, points, name, samples):
     material = burnish.Material(lobes=[AT_POINTS[name]])
     levels = _core.environment_spherical(device, spots64, "gauss6")
