@@ -92,6 +92,13 @@ py::array_t<uint8_t> view_display(const FramePointer& frame) {
                                 reinterpret_cast<const uint8_t*>(frame->display().data()), py::cast(frame));
 }
 
+py::array_t<double> position_of(render::Frame& frame) {
+    const std::vector<glm::dvec3> positions = frame.positions();
+    std::vector<double> values(positions.size() * 3);
+    std::memcpy(values.data(), positions.data(), values.size() * sizeof(double));
+    return make_array(std::move(values), picture_shape(frame, 3));
+}
+
 py::array_t<float> normal_of(render::Frame& frame) {
     const std::vector<glm::vec3> normals = frame.normals();
     std::vector<float> values(normals.size() * 3);
@@ -173,6 +180,10 @@ void bind_render(py::module_& m) {
         .def_property_readonly(
             "depth", [](render::Frame& frame) { return make_array(frame.depth(), picture_shape(frame, 1)); },
             "(h, w) float32, distance along the camera's axis; infinity where nothing is.")
+        .def_property_readonly(
+            "position", &position_of,
+            "(h, w, 3) float64, where the pixels' rays meet objects, in the world; NaN where "
+            "nothing is.")
         .def_property_readonly("normal", &normal_of, "(h, w, 3) float32, world space; 0 where nothing is.")
         .def_property_readonly(
             "report", [](const render::Frame& frame) { return report_dict(frame.report); },

@@ -120,6 +120,8 @@ class Frame:
         neither `color` nor `alpha`: asking for them is a ValueError.
     camera : Camera or None
         That it was seen by; None where it is not known.
+    position : (h, w, 3) float64, a function that gives it when it is first asked for, or None
+        World frame, where the pixels' rays meet objects; NaN where no object is. As `depth`, of one picture.
     """
 
     def __init__(
@@ -132,6 +134,7 @@ class Frame:
         error_estimate: FloatArray | None = None,
         display: NDArray[np.uint8] | None = None,
         camera: "Camera | None" = None,
+        position: NDArray[np.float64] | Callable[[], NDArray[np.float64]] | None = None,
     ) -> None:
         self._color = color
         self._alpha = alpha
@@ -141,6 +144,7 @@ class Frame:
         self.error_estimate = error_estimate
         self._display = display
         self.camera = camera
+        self._position = position
 
     @property
     def color(self) -> FloatArray:
@@ -176,6 +180,18 @@ class Frame:
         if callable(self._normal):
             self._normal = self._normal()
         return self._normal
+
+    @property
+    def position(self) -> NDArray[np.float64]:
+        """Where the pixels' rays meet objects, world frame, (h, w, 3) float64; NaN where no object is.
+
+        Raises ValueError for a frame that was made without it.
+        """
+        if self._position is None:
+            raise ValueError("position: expected a frame that burnish rendered, got one made without it")
+        if callable(self._position):
+            self._position = self._position()
+        return self._position
 
     def __repr__(self) -> str:
         height, width = (self.color if self._display is None else self._display).shape[:2]

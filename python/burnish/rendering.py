@@ -221,9 +221,10 @@ def draw(
         device, scene, camera, height, width, sampler, int(spp), filter, progress, strict, stops
     )
     surface = (lambda: data.depth, lambda: data.normal, Report(dict(data.report)))
+    kept: dict[str, Any] = {"camera": camera, "position": lambda: data.position}
     if stops is not None:
-        return Frame(None, None, *surface, display=data.display, camera=camera)
-    return Frame(data.color, data.alpha, *surface, camera=camera)
+        return Frame(None, None, *surface, display=data.display, **kept)
+    return Frame(data.color, data.alpha, *surface, **kept)
 
 
 def view_of(scene: _core.Scene, camera: _core.Camera | None) -> _core.Camera:

@@ -1,6 +1,7 @@
 #include "burnish/render/frame.h"
 
 #include <algorithm>
+#include <limits>
 #include <stdexcept>
 
 #include "burnish/error.h"
@@ -49,6 +50,20 @@ std::vector<glm::vec3> Frame::normals() {
         const bool has_surface = (packed.y & 0xffffu) != 0;
         return has_surface ? octahedral_decode(glm::unpackSnorm2x16(packed.x)) : glm::vec3(0.0f);
     });
+    return result;
+}
+
+std::vector<glm::dvec3> Frame::positions() {
+    read_surface();
+    const glm::dmat4 world = world_from_picture(camera, width, height); // its axes, from the eye
+    std::vector<glm::dvec3> result(raw_depth_.size());
+    for (size_t k = 0; k < result.size(); ++k) {
+        const glm::dvec2 pixel = glm::dvec2(k % width, k / width) + 0.5 + glm::dvec2(first_offset);
+        const glm::dvec4 place = world * glm::dvec4(pixel, raw_depth_[k], 1.0);
+        result[k] = raw_depth_[k] > 0.0f
+                        ? glm::dvec3(place) / place.w + glm::dvec3(camera.world_from_camera[3])
+                        : glm::dvec3(std::numeric_limits<double>::quiet_NaN());
+    }
     return result;
 }
 

@@ -60,6 +60,7 @@ struct FrameTargets;
 struct Frame {
     uint32_t width = 0, height = 0;
     Camera camera;
+    glm::vec2 first_offset{0.0f}; ///< of the first picture's rays, pixels
     Report report;
     /// Where the host sees the device's memory, the frame keeps it instead of a copy: no later frame is drawn
     /// into it while this one lives.
@@ -79,6 +80,8 @@ struct Frame {
     std::vector<float> depth();
     /// World-space shading normals; 0 where nothing is.
     std::vector<glm::vec3> normals();
+    /// Where the rays of the first picture meet the objects, in the world; NaN where nothing is.
+    std::vector<glm::dvec3> positions();
 
 private:
     std::vector<float> raw_depth_;    // reverse z, of the first picture

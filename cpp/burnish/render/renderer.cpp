@@ -215,6 +215,7 @@ void Renderer::draw_picture(FrameWork& work, glm::vec2 offset, uint32_t picture)
         frame.report.warnings.push_back("nothing is drawn: no object lies in the camera's view");
     vulkan::upload(frame.targets->view, std::span<const shared::ViewRecord>(&view, 1));
     PictureRun run(device_, picture, work.times);
+    if (picture == 0) frame.first_offset = offset;
     if (picture == 0) work.shade->record_start(run.commands());
     if (!work.plan.has_background) work.shade->record_clear(run.commands());
     for (const Pass& pass : work.passes)

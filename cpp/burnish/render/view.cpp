@@ -5,14 +5,21 @@
 #include <limits>
 
 namespace burnish::render {
+namespace {
 
-shared::ViewRecord make_view(const Camera& camera, uint32_t width, uint32_t height, glm::vec2 jitter_px) {
-    const float aspect = float(width) / float(height);
-    const glm::dmat3 world_axes(camera.world_from_camera);
-    const glm::mat3 rotation(world_axes);
+/// Half of what the picture covers: of a pinhole camera at a distance of 1.
+glm::vec2 half_extent(const Camera& camera, uint32_t width, uint32_t height) {
     const float half_height =
         camera.is_orthographic ? camera.half_height : std::tan(0.5f * camera.vertical_fov);
-    const glm::vec2 half = {half_height * aspect, half_height};
+    return {half_height * (float(width) / float(height)), half_height};
+}
+
+} // namespace
+
+shared::ViewRecord make_view(const Camera& camera, uint32_t width, uint32_t height, glm::vec2 jitter_px) {
+    const glm::dmat3 world_axes(camera.world_from_camera);
+    const glm::mat3 rotation(world_axes);
+    const glm::vec2 half = half_extent(camera, width, height);
 
     // Vulkan's clip space: y down, depth 1 at the near plane and 0 far away, where float has the most digits
     // left.
@@ -54,6 +61,19 @@ void keep_clip_in_range(shared::ViewRecord& view, double clip_reach) {
     constexpr int MOST_EXPONENT = 40;
     const int exponent = std::ilogb(std::max(clip_reach, 1.0)) + 1;
     if (exponent > MOST_EXPONENT) view.clip_from_world *= std::ldexp(1.0f, MOST_EXPONENT - exponent);
+}
+
+glm::dmat4 world_from_picture(const Camera& camera, uint32_t width, uint32_t height) {
+    const glm::dmat3 axes(camera.world_from_camera);
+    const glm::dvec2 half(half_extent(camera, width, height));
+    const glm::dvec3 right = axes[0] * (2.0 * half.x / width), down = axes[1] * (-2.0 * half.y / height);
+    const glm::dvec3 corner = half.y * axes[1] - half.x * axes[0];
+    if (!camera.is_orthographic)
+        return {glm::dvec4(right, 0.0), glm::dvec4(down, 0.0),
+                glm::dvec4(0.0, 0.0, 0.0, 1.0 / camera.near_plane), glm::dvec4(corner - axes[2], 0.0)};
+    const double range = double(camera.far_plane) - camera.near_plane;
+    return {glm::dvec4(right, 0.0), glm::dvec4(down, 0.0), glm::dvec4(range * axes[2], 0.0),
+            glm::dvec4(corner - double(camera.far_plane) * axes[2], 1.0)};
 }
 
 float view_depth(const Camera& camera, float depth) {

@@ -18,6 +18,10 @@ shared::ViewRecord make_view(const Camera& camera, uint32_t width, uint32_t heig
 /// for all corners: after the division by w nothing differs.
 void keep_clip_in_range(shared::ViewRecord& view, double clip_reach);
 
+/// Pixel (x right, y down), depth and 1 to what was drawn there, homogeneous, in the world's axes with the
+/// origin at the eye.
+glm::dmat4 world_from_picture(const Camera& camera, uint32_t width, uint32_t height);
+
 /// Distance along the camera's axis of a reverse-z depth; infinity for 0, where nothing was drawn.
 float view_depth(const Camera& camera, float depth);
 

@@ -66,7 +66,8 @@ def draw_truth(
     is_rim = view_cosines(fine.normal, camera or scene.default_camera()) < largest_cosine
     other = None if is_exact else coarse.color
     color = extrapolate(fine.color, other, dense.color, is_rim)
-    return Frame(color, fine.alpha, lambda: fine.depth, lambda: fine.normal, fine.report, camera=fine.camera)
+    surface = (lambda: fine.depth, lambda: fine.normal, fine.report)
+    return Frame(color, fine.alpha, *surface, camera=fine.camera, position=lambda: fine.position)
 
 
 def view_cosines(normal: FloatArray, camera: _core.Camera) -> NDArray[np.float64]:
