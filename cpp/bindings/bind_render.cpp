@@ -123,12 +123,18 @@ std::span<const glm::vec3> directions(const py::array_t<float, py::array::c_styl
 py::tuple shade_points(render::Renderer& renderer, const std::shared_ptr<Environment>& environment,
                        const Material& material, const Sampler& sampler, const py::array& normals,
                        const py::array& tangents, const py::array& views, const std::string& filter,
-                       bool is_strict, bool wants_report) {
+                       bool is_strict, bool wants_report, const std::optional<py::array>& positions,
+                       const Scene* scene) {
     const auto normal_array = require_array<float>(normals, "normals", {any, 3});
     const auto tangent_array = require_array<float>(tangents, "tangents", {any, 3});
     const auto view_array = require_array<float>(views, "views", {any, 3});
-    const render::ShadePoints points{directions(normal_array), directions(tangent_array),
-                                     directions(view_array)};
+    render::ShadePoints points{directions(normal_array), directions(tangent_array), directions(view_array)};
+    py::array_t<double, py::array::c_style | py::array::forcecast> places;
+    if (positions) {
+        places = *positions;
+        points.positions = {reinterpret_cast<const glm::dvec3*>(places.data()), size_t(places.shape(0))};
+    }
+    if (scene) points.lights = &scene->lights;
     const PlanSettings settings = plan_settings(sampler, 1, filter);
     std::vector<glm::vec3> radiance;
     render::Report report;
@@ -197,6 +203,7 @@ void bind_render(py::module_& m) {
     m.def("shade", &shade_points, py::arg("device"), py::arg("environment"), py::arg("material"),
           py::arg("sampler"), py::arg("normals"), py::arg("tangents"), py::arg("views"), py::arg("filter"),
           py::arg("is_strict") = false, py::arg("wants_report") = false,
+          py::arg("positions").none(true) = py::none(), py::arg("scene").none(true) = py::none(),
           "(radiance, problems, report or None) of points; burnish.shade documents the arguments.");
     m.def(
         "time_lookups",

@@ -249,6 +249,11 @@ index : int
                 x.environment = std::move(environment);
             },
             "The distant light, an Environment or None.")
+        .def_property(
+            "lights", [](const Scene& x) { return py::tuple(py::cast(x.lights)); },
+            [](Scene& x, std::vector<DirectLight> lights) { x.lights = std::move(lights); },
+            "Tuple of PointLight, DirectionalLight and SpotLight, which light all objects and are not seen "
+            "themselves; assign a list. Nothing hides their light.")
         .def_readwrite("show_background", &Scene::show_background,
                        "Whether the environment is drawn where no object is.")
         .def_property_readonly(

@@ -258,6 +258,7 @@ ValueError
 
 void bind_scene_parts(py::module_& m) {
     bind_lobes(m);
+    bind_lights(m);
     bind_material(m);
     bind_mesh(m);
     bind_camera(m);

@@ -93,9 +93,10 @@ inline MaterialModel material_model_of(const std::string& name) {
     throw std::invalid_argument(message("model: expected 'ggx' or 'kurt', got '", name, "'"));
 }
 
-/// Binds lobes, Material and Camera, and Mesh by bind_mesh.
+/// Binds what follows, Material and Camera.
 void bind_scene_parts(py::module_& m);
 void bind_lobes(py::module_& m);
+void bind_lights(py::module_& m);
 void bind_mesh(py::module_& m);
 
 } // namespace burnish

@@ -20,7 +20,9 @@ layout(constant_id = SPEC_HAS_VARYING) const bool HAS_VARYING = false;
 layout(constant_id = SPEC_HAS_COAT) const bool HAS_COAT = false;
 layout(constant_id = SPEC_HAS_COAT_NORMAL) const bool HAS_COAT_NORMAL = false;
 layout(constant_id = SPEC_HAS_MAP_ROTATION) const bool HAS_MAP_ROTATION = false;
+layout(constant_id = SPEC_HAS_LIGHTS) const bool HAS_LIGHTS = false;
 layout(constant_id = SPEC_SHADE_CLASS) const uint SHADE_CLASS = 0u;
+layout(constant_id = SPEC_TILE_LIST) const uint TILE_LIST = 0u;
 layout(constant_id = SPEC_IS_DISPLAY) const bool IS_DISPLAY = false;
 
 layout(push_constant) uniform Push { ShadeRecord push; };

@@ -1,5 +1,6 @@
-// Lists, for every shade class, the 8x8 tiles that hold one of its pixels. One invocation is one tile:
-// barriers and shared memory would cost a CPU device more than the loads.
+// Lists, for every shade class, the 8x8 tiles that hold one of its pixels; those that no direct light reaches
+// in lists of their own, behind the others. One invocation is one tile: barriers and shared memory would cost
+// a CPU device more than the loads.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
@@ -11,10 +12,13 @@ layout(local_size_x = 64) in;
 layout(constant_id = SPEC_CLASS_COUNT) const uint CLASS_COUNT = 1u;
 layout(constant_id = SPEC_SHADE_CLASS) const uint BACKGROUND_CLASS =
     MAX_SHADE_CLASSES; // not below CLASS_COUNT: no background
+layout(constant_id = SPEC_LISTS_LIGHTS) const bool LISTS_LIGHTS = false;
+layout(constant_id = SPEC_TILE_LIST) const uint FIRST_DARK_LIST = 0u;
 
 layout(push_constant) uniform Push { ShadeRecord push; };
 layout(binding = BINDING_SURFACE, rg32ui) uniform readonly uimage2D surface_image;
 layout(std430, binding = BINDING_TILES) writeonly buffer Tiles { uint tiles[]; };
+layout(std430, binding = BINDING_LIGHT_LISTS) readonly buffer LightLists { uint light_lists[]; };
 layout(std430, binding = BINDING_TILE_COUNTS) buffer TileCounts { uvec4 tile_counts[]; };
 
 uint class_of(uvec2 surface) {
@@ -39,9 +43,11 @@ void main() {
             classes_here |= shade_class < CLASS_COUNT ? 1u << shade_class : 0u;
         }
     }
+    bool is_dark = LISTS_LIGHTS && light_lists[LIGHT_LIST_WORDS * index] == 0u;
     for (uint shade_class = 0u; shade_class < CLASS_COUNT; ++shade_class) {
         if ((classes_here & (1u << shade_class)) == 0u) continue;
-        uint slot = atomicAdd(tile_counts[shade_class].w, 1u);
-        tiles[shade_class * push.tile_capacity + slot] = tile.x | (tile.y << 16);
+        uint list = shade_class + (is_dark && shade_class != BACKGROUND_CLASS ? FIRST_DARK_LIST : 0u);
+        uint slot = atomicAdd(tile_counts[list].w, 1u);
+        tiles[list * push.tile_capacity + slot] = tile.x | (tile.y << 16);
     }
 }

@@ -11,6 +11,7 @@ layout(binding = BINDING_VIEW, rgba32ui) uniform readonly uimageBuffer view_rows
 layout(binding = BINDING_MATERIALS, rgba32ui) uniform readonly uimageBuffer material_rows;
 layout(binding = BINDING_LOBES, rgba32ui) uniform readonly uimageBuffer lobe_rows;
 layout(binding = BINDING_MAP_RECORDS, rgba32ui) uniform readonly uimageBuffer map_rows;
+layout(binding = BINDING_LIGHTS, rgba32ui) uniform readonly uimageBuffer light_rows;
 
 #define ROW(rows, record, row) imageLoad(rows, int(record##_ROWS) * int(index) + row)
 
@@ -25,6 +26,11 @@ ViewRecord load_view() {
     view.height_px = row.y;
     view.background_map = row.z;
     return view;
+}
+
+mat4 load_world_from_picture() {
+    return mat4(uintBitsToFloat(imageLoad(view_rows, 8)), uintBitsToFloat(imageLoad(view_rows, 9)),
+                uintBitsToFloat(imageLoad(view_rows, 10)), uintBitsToFloat(imageLoad(view_rows, 11)));
 }
 
 MaterialRecord load_material(uint index) {
@@ -77,6 +83,15 @@ MapRecord load_map_record(uint index) {
         map.suns[k] = uintBitsToFloat(ROW(map_rows, MAP, 13 + k));
     }
     return map;
+}
+
+LightRecord load_light(uint index) {
+    LightRecord light;
+    light.place = uintBitsToFloat(ROW(light_rows, LIGHT, 0));
+    light.intensity = uintBitsToFloat(ROW(light_rows, LIGHT, 1));
+    light.axis = uintBitsToFloat(ROW(light_rows, LIGHT, 2));
+    light.cone = uintBitsToFloat(ROW(light_rows, LIGHT, 3));
+    return light;
 }
 
 #endif

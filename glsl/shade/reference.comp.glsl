@@ -14,6 +14,7 @@
 #include "shade/albedo.glsl"
 #include "lookup/map_lookup.glsl"
 #include "shade/layers.glsl"
+#include "shade/lights.glsl"
 #include "shade/surface_point.glsl"
 
 layout(constant_id = SPEC_IS_QUADRATURE) const bool IS_QUADRATURE = false;
@@ -168,6 +169,48 @@ vec3 diffuse_batch(PointToShade point, MapRecord map) {
     return IS_QUADRATURE ? diffuse_quadrature(frame[2], map) : diffuse_progressive(frame, map, seed);
 }
 
+// Of points of a quadrature on a light's disc, and of as many drawn from the lobe.
+const uint LIGHT_POINTS = 256u;
+
+// From the disc that a light is seen as, all of which is equally bright, and from the lobe, weighed by the
+// sum of both densities.
+vec3 shade_disc(LobeView v, vec3 middle, ArrivingLight light, uint seed) {
+    uint count = IS_QUADRATURE ? LIGHT_POINTS : push.batch_size;
+    float height = light.sine2 / (1.0 + sqrt(max(1.0 - light.sine2, 0.0))); // 1 - cos of the radius
+    float disc_pdf = 1.0 / (2.0 * PI * height);
+    mat3 basis = orthonormal_basis(middle);
+    vec3 sum = vec3(0.0);
+    for (uint k = 0u; k < count; ++k) {
+        vec2 x = recurrence_2d(k, seed);
+        float depth = x.x * height, azimuth = 2.0 * PI * x.y;
+        float sine = sqrt(depth * (2.0 - depth));
+        vec3 local_i = basis * vec3(sine * cos(azimuth), sine * sin(azimuth), 1.0 - depth);
+        vec3 h = half_vector(local_i, v.local_o);
+        sum += reflectance(v, local_i, h) / (disc_pdf + lobe_pdf(v.shape, v.local_o, h));
+        h = lobe_sample(v.shape, v.local_o, x);
+        local_i = 2.0 * dot(v.local_o, h) * h - v.local_o;
+        vec3 beside = cross(local_i, middle);
+        bool is_lit =
+            dot(v.local_o, h) > 0.0 && dot(local_i, middle) > 0.0 && dot(beside, beside) <= light.sine2;
+        if (is_lit) sum += reflectance(v, local_i, h) / (disc_pdf + lobe_pdf(v.shape, v.local_o, h));
+    }
+    return sum * (light.irradiance / (PI * light.sine2 * float(count)));
+}
+
+vec3 reference_lights(LobeView v, PointToShade point, mat3 frame, uint seed) {
+    vec3 sum = vec3(0.0);
+    LightRange range = lights_of(point);
+    for (uint k = 0u; k < range.count; ++k) {
+        ArrivingLight light = light_of(range, k, point.position);
+        vec3 middle = light.omega_i * frame;
+        if (light.sine2 < 1e-12)
+            sum += light.irradiance * reflectance(v, middle, half_vector(middle, v.local_o));
+        else
+            sum += shade_disc(v, middle, light, hash_uint(seed + k));
+    }
+    return sum;
+}
+
 void main() {
     PointToShade point = load_point();
     MaterialRecord material = load_material(point.material);
@@ -175,6 +218,10 @@ void main() {
 
     Layers layers = Layers(vec3(0.0), 1.0);
     if (HAS_DIFFUSE) layers.light = point_diffuse(point) * diffuse_batch(point, map);
+    // A quadrature adds parts of a sum: direct lights are of the first.
+    bool has_lights = HAS_LIGHTS && (!IS_QUADRATURE || push.texel_begin == 0u);
+    if (HAS_DIFFUSE && has_lights)
+        layers.light += point_diffuse(point) * diffuse_lights(point) / map.radiance_scale;
     for (uint which = 0u; which < LOBE_COUNT; ++which) {
         LobeRecord record = load_lobe(material.lobe_begin + which);
         LobeView v;
@@ -186,6 +233,7 @@ void main() {
         v.layer = float(map.layer);
         uint seed = hash_uint(point.index * 4u + which) ^ hash_uint(push.batch + 0x51633e2du);
         vec3 light = IS_QUADRATURE ? quadrature(v, map) : progressive(v, map, seed);
+        if (has_lights) light += reference_lights(v, point, frame, seed) / map.radiance_scale;
         float through = 1.0;
         if (CONSERVES_ENERGY || HAS_LAYERS) {
             vec2 albedo = lobe_albedo(record, v.lobe.roughness, v.local_o);

@@ -5,6 +5,7 @@
 
 #include "shade/diffuse.glsl"
 #include "shade/layers.glsl"
+#include "shade/lights.glsl"
 #include "shade/lobe.glsl"
 #include "shade/matched.glsl"
 #include "shade/matched_by_view.glsl"
@@ -14,6 +15,19 @@
 
 // Light of the lobe at the point without its suns, energy_scale and the map's exposure.
 vec3 look_up_lobe(LobeView v, SurfaceLobe lobe, LobeRecord record, vec2 albedo, MapRecord map);
+
+// Light of the lobe from direct lights. A disc's variance along an axis is a quarter of its radius' square.
+vec3 shade_lights(LobeView v, PointToShade point, mat3 frame, SurfaceLobe lobe) {
+    vec3 sum = vec3(0.0);
+    LightRange range = lights_of(point);
+    uint k = 0u;
+    do {
+        ArrivingLight light = light_of(range, k, point.position);
+        sum += shade_small_light(v, light.omega_i * frame, 0.25 * light.sine2, light.irradiance,
+                                 lobe.specular, lobe.grazing);
+    } while (++k < range.count);
+    return sum;
+}
 
 void shade_lobe(PointToShade point, MapRecord map, uint lobe_index, uint which, inout Layers layers) {
     SurfaceLobe lobe = point_lobe(point, lobe_index, which);
@@ -37,6 +51,7 @@ void shade_lobe(PointToShade point, MapRecord map, uint lobe_index, uint which, 
         albedo = lobe_albedo(record, v.roughness, v.local_o);
     vec3 light = look_up_lobe(v, lobe, record, albedo, map);
     if (SUN_COUNT > 0u) light += shade_suns(v, map, lobe.specular, lobe.grazing);
+    if (HAS_LIGHTS) light += shade_lights(v, point, frame, lobe) / map.radiance_scale;
     albedo *= v.cos_o_power;
     vec3 scale = energy_scale(record, reflectance_of(lobe), albedo.x);
     add_lobe(layers, record, light * scale, lobe_through(record, lobe, albedo, scale));
@@ -51,6 +66,8 @@ void main() {
     if (HAS_DIFFUSE)
         layers.light = point_diffuse(point) *
                        diffuse_light(map, material.map, environment_from_world(map, point.frame[2]));
+    if (HAS_DIFFUSE && HAS_LIGHTS)
+        layers.light += point_diffuse(point) * diffuse_lights(point) / map.radiance_scale;
     [[unroll]] for (uint which = 0u; which < LOBE_COUNT; ++which) {
         shade_lobe(point, map, material.lobe_begin + which, which, layers);
     }

@@ -14,10 +14,10 @@ vec2 slope_step(vec3 step, vec2 slope) {
     return step.xy - slope * clamp(step.z, -SUN_MOST_STEP, SUN_MOST_STEP);
 }
 
-// Flux times f cos_i of a lobe that is wider by the sun. A variance v of directions is v/4 of half-vectors in
-// the plane of view and light, v/(4 (o.h)^2) across it: at grazing views much more.
-vec3 shade_sun(LobeView v, vec4 sun, vec3 flux, vec3 specular, vec3 grazing) {
-    vec3 omega_i = sun.xyz * v.frame;
+// Flux times f cos_i of a lobe that is wider by a light of small extent, in the lobe's axes. A variance v of
+// directions is v/4 of half-vectors in the plane of view and light, v/(4 (o.h)^2) across it: at grazing views
+// much more.
+vec3 shade_small_light(LobeView v, vec3 omega_i, float variance, vec3 flux, vec3 specular, vec3 grazing) {
     vec3 h = omega_i + v.local_o;
     float length2 = dot(h, h);
     bool is_seen = omega_i.z > 0.0 && h.z > 1e-3 * sqrt(length2) && length2 > 1e-12;
@@ -27,7 +27,7 @@ vec3 shade_sun(LobeView v, vec4 sun, vec3 flux, vec3 specular, vec3 grazing) {
     // Toward the light any two directions will do.
     across = normalize(dot(across, across) > 1e-8 ? across : vec3(0.0, h.z, -h.y));
     vec3 along = cross(across, h);
-    float scale = sqrt(0.5 * sun.w) / h.z;
+    float scale = sqrt(0.5 * variance) / h.z;
     Widened w;
     w.slope = h.xy / h.z;
     vec2 s1 = slope_step(scale * along, w.slope), s2 = slope_step((scale / cos_d) * across, w.slope);
@@ -46,8 +46,11 @@ vec3 shade_sun(LobeView v, vec4 sun, vec3 flux, vec3 specular, vec3 grazing) {
 vec3 shade_suns(LobeView v, MapRecord map, vec3 specular, vec3 grazing) {
     vec3 sum = vec3(0.0);
     [[unroll]] for (uint k = 0u; k < MAX_SUNS; ++k) {
-        if (k < SUN_COUNT)
-            sum += shade_sun(v, map.suns[2u * k], map.suns[2u * k + 1u].rgb, specular, grazing);
+        if (k < SUN_COUNT) {
+            vec4 sun = map.suns[2u * k];
+            vec3 flux = map.suns[2u * k + 1u].rgb;
+            sum += shade_small_light(v, sun.xyz * v.frame, sun.w, flux, specular, grazing);
+        }
     }
     return sum;
 }

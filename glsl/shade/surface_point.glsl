@@ -6,6 +6,7 @@
 #include "lib/frame.glsl"
 #include "lobe/lobe.glsl"
 #include "shade/guard.glsl"
+#include "shade/position.glsl"
 
 struct SurfaceLobe {
     vec3 specular; // weight * r0
@@ -17,10 +18,13 @@ struct PointToShade {
     bool is_mine; // else nothing is stored
     bool is_seen; // from in front; else it is black
     uint index;   // into radiance_out
+    uint group;   // of points, or the tile: counted by rows
     uint material;
     ivec2 pixel;
-    mat3 frame;   // world
-    vec3 omega_o; // world, unit, toward the eye
+    mat3 frame;    // world
+    vec3 omega_o;  // world, unit, toward the eye
+    vec3 position; // where lights are: in the world's axes, from the eye or the middle of the points; only
+                   // for effects that ask
 };
 
 vec3 pixel_ray(ViewRecord view, vec2 pixel) {
@@ -30,12 +34,12 @@ vec3 pixel_ray(ViewRecord view, vec2 pixel) {
 
 uint group_index() { return gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x; }
 
-// The pixel of this invocation in the list of its class; false outside the picture or past the list's end.
+// The pixel of this invocation in its list of tiles; false outside the picture or past the list's end.
 bool locate_pixel(ViewRecord view, out ivec2 pixel) {
     uint tile_index = group_index();
-    uint tile = tiles[SHADE_CLASS * push.tile_capacity + min(tile_index, push.tile_capacity - 1u)];
+    uint tile = tiles[TILE_LIST * push.tile_capacity + min(tile_index, push.tile_capacity - 1u)];
     pixel = ivec2(uvec2(tile & 0xffffu, tile >> 16) * TILE_SIZE + gl_LocalInvocationID.xy);
-    return tile_index < tile_counts[SHADE_CLASS].w && pixel.x < int(view.width_px) &&
+    return tile_index < tile_counts[TILE_LIST].w && pixel.x < int(view.width_px) &&
            pixel.y < int(view.height_px);
 }
 
@@ -68,6 +72,8 @@ PointToShade load_point() {
         SurfacePoint given = points[point.index];
         point.material = floatBitsToUint(given.omega_o.w);
         point.pixel = ivec2(0);
+        point.group = group_index();
+        point.position = given.position.xyz;
         point.frame = frame_from_tangent(given.normal.xyz, given.tangent.xyz, given.tangent.w);
         float cos_o = dot(given.normal.xyz, given.omega_o.xyz);
         point.is_seen = cos_o > 0.0;
@@ -80,11 +86,18 @@ PointToShade load_point() {
     bool is_inside = locate_pixel(view, point.pixel);
     uvec2 surface = imageLoad(surface_image, point.pixel).xy;
     point.index = uint(point.pixel.y) * view.width_px + uint(point.pixel.x);
+    uvec2 tile = uvec2(point.pixel) / TILE_SIZE;
+    point.group = tile.y * ((view.width_px + TILE_SIZE - 1u) / TILE_SIZE) + tile.x;
     point.material = has_surface(surface) ? unpack_material(surface) : 0u;
     point.is_mine =
         is_inside && has_surface(surface) && load_material(point.material).shade_class == SHADE_CLASS;
     point.omega_o = -pixel_ray(view, vec2(point.pixel));
     point.is_seen = true; // see facing_normal
+    point.position = vec3(0.0);
+    if (HAS_LIGHTS) {
+        float depth = texelFetch(depth_image, point.pixel, 0).x;
+        point.position = pixel_position(load_world_from_picture(), point.pixel, depth > 0.0 ? depth : 1.0);
+    }
     if (HAS_TANGENT) {
         point.frame = facing_frame(unpack_frame(surface), point.omega_o);
     } else {

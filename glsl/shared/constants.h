@@ -76,6 +76,9 @@ SHARED_CONST uint IRRADIANCE_TEXELS = 6936u;
 // taken in parts.
 SHARED_CONST uint LEAST_QUADRATURE_FACE = 64u;
 
+// Words of a list of lights: how many, and which.
+SHARED_CONST uint LIGHT_LIST_WORDS = 64u;
+
 // Suns that may be taken out of one map.
 SHARED_CONST uint MAX_SUNS = 4u;
 
@@ -104,6 +107,9 @@ SHARED_CONST uint BINDING_STORED_PAIRS = 20u;
 SHARED_CONST uint BINDING_STORED_SAMPLE_TABLE = 21u;
 SHARED_CONST uint BINDING_IRRADIANCE = 23u; // cubes, by map
 SHARED_CONST uint BINDING_STORED_IRRADIANCE = 24u;
+SHARED_CONST uint BINDING_LIGHTS = 25u;
+SHARED_CONST uint BINDING_LIGHT_LISTS = 26u; // of LIGHT_LIST_WORDS each, by tile or group of points
+SHARED_CONST uint BINDING_DEPTH = 27u;
 SHARED_CONST uint BINDING_DISPLAY = 22u; // 8 bits a channel in place of BINDING_RADIANCE
 
 SHARED_CONST uint BINDING_ACCUMULATE_SAMPLE = 0u;
@@ -143,6 +149,9 @@ SHARED_CONST uint SPEC_HAS_COAT_NORMAL = 28u;        // the clear coat's normal 
 SHARED_CONST uint SPEC_HAS_HARMONICS = 29u; // diffuse light by nine harmonics, not by an irradiance cube
 SHARED_CONST uint SPEC_IRRADIANCE_IS_STORED = 30u; // in a storage buffer: a texel buffer holds fewer
 SHARED_CONST uint SPEC_HAS_LAYERS = 31u;           // lobes take light from what lies below them
+SHARED_CONST uint SPEC_HAS_LIGHTS = 32u;           // direct lights
+SHARED_CONST uint SPEC_LISTS_LIGHTS = 33u;         // tiles read which of them reach them
+SHARED_CONST uint SPEC_TILE_LIST = 34u;            // of tiles that a kernel shades
 SHARED_CONST uint SPEC_SAMPLES = 100u; // of the lookups alone, for benchmarks: four floats a sample follow
 
 SHARED_CONST uint LOOKUP_SAMPLER = 0u; // the device's

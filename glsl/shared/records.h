@@ -11,6 +11,7 @@ SHARED_BEGIN
 SHARED_CONST uint LOBE_ROWS = 6u;
 SHARED_CONST uint MATERIAL_ROWS = 3u;
 SHARED_CONST uint MAP_ROWS = 21u;
+SHARED_CONST uint LIGHT_ROWS = 4u;
 
 // One lobe of one material.
 struct LobeRecord {
@@ -62,6 +63,18 @@ struct MapRecord {
 };
 SHARED_SIZE(MapRecord, 16 * MAP_ROWS)
 
+// One direct light. Places are relative to the origin of positions: the eye, or the middle of a list of
+// points.
+struct LightRecord {
+    vec4 place; // xyz: where it is, or, of directional ones, where it comes from, unit; w: radius, or the
+                // sine of half the angle that it is seen under
+    vec4 intensity; // rgb: W/sr, or, of directional ones, irradiance; w: 1/range^2, 0: no end
+    vec4 axis;      // xyz: where a spot shines, unit; w: 1: directional
+    vec4 cone; // xy: scale and offset of a spot's edge by the cosine; zw: cosine and sine of the outer angle,
+               // 0 of others
+};
+SHARED_SIZE(LightRecord, 16 * LIGHT_ROWS)
+
 // The view a frame is drawn from. A pixel's ray is ray_corner + (x + .5) ray_dx + (y + .5) ray_dy, x right, y
 // down.
 struct ViewRecord {
@@ -71,18 +84,21 @@ struct ViewRecord {
     vec4 ray_dy;
     uint width_px;
     uint height_px;
-    uint background_map; // MapRecord behind everything
-    uint picture;        // of those that are averaged, counted from 0
+    uint background_map;     // MapRecord behind everything
+    uint picture;            // of those that are averaged, counted from 0
+    mat4 world_from_picture; // pixel, depth and 1 to what was drawn there, homogeneous; axes and origin as
+                             // above
 };
-SHARED_SIZE(ViewRecord, 128)
+SHARED_SIZE(ViewRecord, 192)
 
 // One surface point given from outside instead of a G-buffer pixel.
 struct SurfacePoint {
-    vec4 normal;  // xyz: unit, world
-    vec4 tangent; // xyz: world; w: handedness, bitangent = w cross(normal, tangent)
-    vec4 omega_o; // xyz: unit, toward the eye; w: material index
+    vec4 normal;   // xyz: unit, world
+    vec4 tangent;  // xyz: world; w: handedness, bitangent = w cross(normal, tangent)
+    vec4 omega_o;  // xyz: unit, toward the eye; w: material index
+    vec4 position; // xyz: relative to the middle of all
 };
-SHARED_SIZE(SurfacePoint, 48)
+SHARED_SIZE(SurfacePoint, 64)
 
 // Values that were stopped because they were not finite, by the pass that they come from, GUARD_*.
 struct Counters {
@@ -136,7 +152,7 @@ struct ShadeRecord {
     uint texel_begin;   // of a quadrature reference: texels of the map done in this dispatch
     uint texel_end;
     float display_scale; // of display output: 2^exposure
-    uint pad0;
+    uint light_count;
 };
 SHARED_SIZE(ShadeRecord, 32)
 

@@ -1,7 +1,7 @@
 """Frames and shaded points: arguments are checked here, the work is the extension's."""
 
 import warnings
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import Any, Literal, TypeAlias, overload
 
 import numpy as np
@@ -17,6 +17,7 @@ from burnish.samplers import Sampler
 
 Output: TypeAlias = Literal["linear", "display"]
 FloatArray: TypeAlias = NDArray[np.float32]
+PlaceArray: TypeAlias = NDArray[np.float32] | NDArray[np.float64]
 Progress: TypeAlias = Callable[[float, str], None]
 
 LARGEST_EDGE_PX = 16384
@@ -29,15 +30,18 @@ def require_filter(filter: str) -> None:
         raise ValueError(f"filter: expected one of {', '.join(FILTERS)}, got {filter!r}")
 
 
-def _require_directions(array: Any, name: str, count: int | None = None) -> None:
+def _require_rows(
+    array: Any, name: str, count: int | None = None, types: Sequence[type] = (np.float32,)
+) -> None:
     """Raise ValueError unless the array can be handed over as it is: nothing is cast or copied silently."""
     rows = "n" if count is None else str(count)
-    expected = f"{name}: expected C-contiguous float32 of shape ({rows}, 3), got "
+    names = " or ".join(one.__name__ for one in types)
+    expected = f"{name}: expected C-contiguous {names} of shape ({rows}, 3), got "
     if not isinstance(array, np.ndarray):
         raise ValueError(f"{expected}{type(array).__name__}")
     if array.ndim != 2 or array.shape[1] != 3 or (count is not None and len(array) != count):
         raise ValueError(f"{expected}shape {array.shape}")
-    if array.dtype != np.float32 or not array.flags.c_contiguous:
+    if array.dtype not in types or not array.flags.c_contiguous:
         layout = "" if array.flags.c_contiguous else "non-contiguous "
         raise ValueError(f"{expected}{layout}{array.dtype} of shape {array.shape}")
     if not np.isfinite(array).all():
@@ -57,6 +61,8 @@ def shade(
     device: _core.Device | None = ...,
     strict: bool = ...,
     report: Literal[False] = ...,
+    positions: PlaceArray | None = ...,
+    scene: _core.Scene | None = ...,
 ) -> FloatArray: ...
 
 
@@ -73,6 +79,8 @@ def shade(
     strict: bool = ...,
     *,
     report: Literal[True],
+    positions: PlaceArray | None = ...,
+    scene: _core.Scene | None = ...,
 ) -> tuple[FloatArray, Report]: ...
 
 
@@ -87,6 +95,8 @@ def shade(
     device: _core.Device | None = None,
     strict: bool = False,
     report: bool = False,
+    positions: PlaceArray | None = None,
+    scene: _core.Scene | None = None,
 ) -> FloatArray | tuple[FloatArray, Report]:
     """Shade surface points with the kernel that shades pictures.
 
@@ -115,6 +125,10 @@ def shade(
     report : bool
         Give a report back as well, as pictures have one: passes, effects, samples that were taken, and what
         would else be warned of.
+    positions : (n, 3) float32 or float64, or None
+        Where the points are, world frame, C-contiguous. What `scene` adds asks for them.
+    scene : Scene or None
+        Its direct lights light the points, beside `env`; its objects do not hide anything from them.
 
     Returns
     -------
@@ -139,15 +153,21 @@ def shade(
         If no device can do it.
     """
     require_filter(filter)
-    _require_directions(normals, "normals")
-    _require_directions(tangents, "tangents", len(normals))
-    _require_directions(views, "views", len(normals))
+    _require_rows(normals, "normals")
+    _require_rows(tangents, "tangents", len(normals))
+    _require_rows(views, "views", len(normals))
     if len(normals) == 0:
         none: FloatArray = np.zeros((0, 3), np.float32)
         return (none, Report({"filter": filter})) if report else none
+    if positions is not None:
+        _require_rows(positions, "positions", len(normals), (np.float32, np.float64))
+    elif scene is not None and any(not isinstance(one, _core.DirectionalLight) for one in scene.lights):
+        raise ValueError(
+            "positions: expected an array beside a scene with lights that have a place, got None"
+        )
     points = (normals, tangents, views)
     radiance, problems, data = _core.shade(
-        device or default_device(), env, material, sampler, *points, filter, strict, report
+        device or default_device(), env, material, sampler, *points, filter, strict, report, positions, scene
     )
     if data is not None:
         return radiance, Report(data | {"points": len(radiance)})

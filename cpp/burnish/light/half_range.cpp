@@ -49,6 +49,7 @@ int half_exponent(double least, double largest) {
 HalfRange half_range_of(uint32_t face_size, std::span<const float> radiance) {
     const Extent extent = extent_of(radiance);
     HalfRange range;
+    if (extent.largest == 0.0) return range; // a black map loses nothing
     range.exponent = half_exponent(extent.least, extent.largest);
     if (extent.least >= std::ldexp(1.0, range.exponent + LEAST_NORMAL)) return range;
 

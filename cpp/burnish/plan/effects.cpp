@@ -87,6 +87,11 @@ constexpr std::array EFFECTS = {
            [](const Subject& one) { return one.material.lobes.empty() ? 0 : one.sun_count; },
            // Those that are not there have no flux.
            [](uint32_t value, const Variant&) { return value > 0 ? shared::MAX_SUNS : 0; }},
+    Effect{shared::SPEC_HAS_LIGHTS, "direct lights", nullptr, false, true,
+           [](const Subject& one) {
+               return uint32_t(one.has_lights && (!one.material.lobes.empty() || has_diffuse(one.material)));
+           },
+           nullptr},
     Effect{shared::SPEC_HAS_MAP_ROTATION, "map rotation", nullptr, false, true,
            [](const Subject& one) { return uint32_t(one.is_map_turned); }, on},
 };

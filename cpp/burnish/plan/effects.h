@@ -15,7 +15,8 @@ namespace burnish {
 struct Subject {
     const Material& material;
     bool is_map_turned = false;
-    uint32_t sun_count = 0; ///< taken out of the map
+    uint32_t sun_count = 0;  ///< taken out of the map
+    bool has_lights = false; ///< the scene has direct lights
 };
 
 struct Effect {

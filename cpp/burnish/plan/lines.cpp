@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <map>
 #include <set>
 
 #include "burnish/error.h"
@@ -59,6 +60,21 @@ std::string lookup_reason(const Plan& plan) {
            some(MapLookup::software_stored,
                 "read from storage buffers: they are too large for texel buffers") +
            some(MapLookup::sampler, "read by the device's sampler: they are too large for its buffers");
+}
+
+EffectLine light_line(const Scene& scene, const Plan& plan) {
+    if (scene.lights.empty()) return {"direct lights", false, "the scene has none"};
+    if (plan.lights.empty()) return {"direct lights", false, "none gives any light"};
+    std::map<std::string, size_t> counts;
+    for (const DirectLight& light : plan.lights)
+        ++counts[kind_name(light)];
+    std::string text;
+    for (const auto& [kind, count] : counts)
+        text += message(text.empty() ? "" : ", ", count, " ", kind);
+    const size_t dark = scene.lights.size() - plan.lights.size();
+    return {"direct lights", true,
+            message(text, "; nothing hides their light",
+                    dark ? message("; ", dark, " without light left out") : "")};
 }
 
 std::string why_at_every_point(const ShadeClass& one, const std::vector<const Material*>& materials) {
@@ -165,6 +181,7 @@ void add_effect_lines(const Scene& scene, Plan& plan) {
                                                     " taken out of the map and shaded directly")
                             : plan.sampler.takes_suns_out ? "no map has a sun"
                                                           : "only the matched sampler splits suns off"});
+    plan.effects.push_back(light_line(scene, plan));
     const bool has_rotation = std::any_of(plan.environments.begin(), plan.environments.end(),
                                           [](const auto& one) { return one->rotation != glm::mat3(1.0f); });
     plan.effects.push_back({"map rotation", has_rotation,

@@ -21,6 +21,8 @@ const char* pass_name(PassKind kind) {
         return "surface";
     case PassKind::tiles:
         return "tiles";
+    case PassKind::light_lists:
+        return "light lists";
     case PassKind::shade:
         return "shade";
     case PassKind::reference:
@@ -62,9 +64,14 @@ std::vector<PassLine> passes_of(const Plan& plan) {
     add(PassKind::surface, plan.has_varying ? "rasterises into the wide G-buffer: textures or vertex colours "
                                               "vary over a surface"
                                             : "rasterises into 8 bytes a pixel and depth");
+    if (plan.lists_lights)
+        add(PassKind::light_lists,
+            message("of ", plan.lights.size(), plan.lights.size() == 1 ? " light" : " lights",
+                    " those that reach each tile: some end somewhere"));
     add(PassKind::tiles, message("lists the 8x8 tiles of ", plan.classes.size(),
                                  plan.classes.size() == 1 ? " shade class" : " shade classes",
-                                 plan.has_background ? " and of the background" : ""));
+                                 plan.has_background ? " and of the background" : "",
+                                 plan.lists_lights ? ", those that no light reaches apart" : ""));
     for (uint32_t k = 0; k < plan.classes.size(); ++k)
         add(is_reference ? PassKind::reference : PassKind::shade, plan.classes[k].reason, k);
     if (plan.has_background) add(PassKind::background, "the environment where no object is");

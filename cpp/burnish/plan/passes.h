@@ -18,6 +18,7 @@ enum class PassKind {
     pack,
     // In every frame.
     surface,
+    light_lists,
     tiles,
     shade,
     reference,

@@ -61,6 +61,14 @@ void add_instances(const Scene& scene, Plan& plan, SunCache& suns) {
             message("scene: expected at most 65534 pairs of material and map, got ", plan.instances.size()));
 }
 
+void add_lights(const Scene& scene, Plan& plan) {
+    for (const DirectLight& light : scene.lights) {
+        if (!is_lit(light)) continue;
+        plan.lights.push_back(light);
+        plan.lists_lights |= is_bounded(light);
+    }
+}
+
 void add_map_sets(Plan& plan) {
     for (uint32_t k = 0; k < plan.environments.size(); ++k) {
         const uint32_t face_size = plan.environments[k]->face_size();
@@ -121,7 +129,7 @@ ShadeClass class_of(const Scene& scene, const Plan& plan, const MaterialInstance
     const Material& material = scene.materials[instance.material];
     const Environment& environment = *plan.environments[instance.environment];
     const Subject subject{material, environment.rotation != glm::mat3(1.0f),
-                          uint32_t(plan.suns[instance.environment].size())};
+                          uint32_t(plan.suns[instance.environment].size()), !plan.lights.empty()};
     ShadeClass one;
     one.variant = variant_of(subject, plan.settings.has_lobes);
     one.map_set = map_set_of(plan, instance.environment);
@@ -241,9 +249,11 @@ Plan make_plan(const Scene& scene, const PlanSettings& settings, SunCache& suns)
     plan.has_background = scene.show_background && scene.environment;
     add_instances(scene, plan, suns);
     add_map_sets(plan);
+    add_lights(scene, plan);
     add_classes(scene, plan);
     warn_of_nothing_drawn(scene, plan);
-    if (!scene.environment) plan.warnings.push_back("the scene has no environment: only emission is seen");
+    if (!scene.environment && plan.lights.empty())
+        plan.warnings.push_back("the scene has no environment and no light: only emission is seen");
     warn_of_missing_tangents(scene, plan);
     if (plan.has_tangent && plan.sampler.is_round)
         plan.warnings.push_back(

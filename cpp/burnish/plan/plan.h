@@ -109,6 +109,8 @@ struct Plan {
     /// Indices of the environments that light something diffuse, each once.
     std::vector<uint32_t> diffuse_environments;
     std::vector<MapSet> map_sets;
+    std::vector<DirectLight> lights; ///< that give any light
+    bool lists_lights = false;       ///< some end somewhere: tiles list those that reach them
     std::vector<MaterialInstance> instances;
     std::vector<uint32_t> object_instance; ///< for each object of the scene
     std::vector<ShadeClass> classes;

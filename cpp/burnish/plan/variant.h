@@ -15,7 +15,7 @@ public:
     bool operator==(const Variant&) const = default;
 
 private:
-    std::array<uint32_t, 32> values_{};
+    std::array<uint32_t, 40> values_{};
 };
 
 } // namespace burnish

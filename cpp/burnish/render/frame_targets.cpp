@@ -21,12 +21,13 @@ vulkan::Image target(const vulkan::DevicePointer& device, VkFormat format, uint3
 } // namespace
 
 FrameTargets::FrameTargets(const vulkan::DevicePointer& device, uint32_t width_px, uint32_t height_px,
-                           bool is_varying, bool is_summed, bool is_displayed, uint32_t classes)
+                           bool is_varying, bool is_summed, bool is_displayed, uint32_t lists)
     : width(width_px), height(height_px), has_varying(is_varying), has_sum(is_summed),
-      has_display(is_displayed), class_count(classes) {
+      has_display(is_displayed), list_count(lists) {
     const VkImageUsageFlags color = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_STORAGE_BIT;
     surface = target(device, SURFACE_FORMAT, width, height, color);
-    depth = target(device, DEPTH_FORMAT, width, height, VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT);
+    depth = target(device, DEPTH_FORMAT, width, height,
+                   VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT);
     const uint32_t varying_width = is_varying ? width : 1, varying_height = is_varying ? height : 1;
     for (vulkan::Image* image : {&varying_diffuse, &varying_specular, &varying_emissive})
         *image = target(device, VARYING_FORMAT, varying_width, varying_height, color);
@@ -43,8 +44,8 @@ FrameTargets::FrameTargets(const vulkan::DevicePointer& device, uint32_t width_p
     radiance = vulkan::Buffer(device, (has_radiance ? pixels + 1 : 1) * sizeof(glm::vec4), storage, use);
     display = vulkan::Buffer(device, (has_display ? pixels + 1 : 1) * sizeof(uint32_t), storage, use);
     sum = vulkan::Buffer(device, (has_sum ? pixels : 1) * sizeof(glm::vec4), storage, use);
-    tiles = vulkan::Buffer(device, VkDeviceSize(class_count) * tile_capacity * sizeof(uint32_t), storage);
-    tile_counts = vulkan::Buffer(device, class_count * sizeof(glm::uvec4),
+    tiles = vulkan::Buffer(device, VkDeviceSize(list_count) * tile_capacity * sizeof(uint32_t), storage);
+    tile_counts = vulkan::Buffer(device, list_count * sizeof(glm::uvec4),
                                  storage | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT);
     counters = vulkan::Buffer(device, sizeof(shared::Counters), storage);
     view = vulkan::Buffer(device, sizeof(shared::ViewRecord),

@@ -19,23 +19,23 @@ struct FrameTargets {
     bool has_varying = false;
     bool has_sum = false;
     bool has_display = false;
-    uint32_t class_count = 0; ///< that there is room for
-    vulkan::Image surface;    ///< RG32UI: see pack_surface in glsl/lib/frame.glsl
-    vulkan::Image depth;      ///< D32, reverse z
+    uint32_t list_count = 0; ///< of tiles, that there is room for
+    vulkan::Image surface;   ///< RG32UI: see pack_surface in glsl/lib/frame.glsl
+    vulkan::Image depth;     ///< D32, reverse z
     vulkan::Image varying_diffuse, varying_specular, varying_emissive; ///< one texel unless has_varying
     vulkan::Image varying_coat; ///< RG32UI, the same: see coat_out in glsl/surface/surface_varying.frag.glsl
     vulkan::Buffer radiance;    ///< vec4 a pixel and one more; one where display output needs no sum
     vulkan::Buffer sum;         ///< vec4 a pixel, with accumulation; else one
     vulkan::Buffer display;     ///< a byte a channel, a pixel and one more, with display output; else one
-    vulkan::Buffer tiles;       ///< per class, room for all tiles
-    vulkan::Buffer tile_counts; ///< uvec4 a class
+    vulkan::Buffer tiles;       ///< per list, room for all tiles
+    vulkan::Buffer tile_counts; ///< uvec4 a list
     vulkan::Buffer counters;
     vulkan::Buffer view;
     vulkan::TexelView view_rows;
     uint32_t tile_capacity = 0;
 
     FrameTargets(const vulkan::DevicePointer& device, uint32_t width, uint32_t height, bool has_varying,
-                 bool has_sum, bool has_display, uint32_t class_count);
+                 bool has_sum, bool has_display, uint32_t list_count);
 };
 
 } // namespace burnish::render

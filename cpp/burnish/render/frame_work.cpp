@@ -32,6 +32,9 @@ std::vector<Pass> make_passes(FrameWork& work, const std::function<void()>& run_
         case PassKind::tiles:
             run = [&](PictureRun& picture) { work.shade->record_tiles(picture.commands()); };
             break;
+        case PassKind::light_lists:
+            run = [&](PictureRun& picture) { work.shade->record_light_lists(picture.commands()); };
+            break;
         case PassKind::shade:
             run = [&, number](PictureRun& picture) {
                 work.shade->record_class(picture.commands(), number, {});

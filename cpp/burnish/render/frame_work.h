@@ -42,6 +42,7 @@ struct Pass {
 struct FrameWork {
     Plan plan;
     ShadeTables tables;
+    LightTable lights;
     std::vector<std::shared_ptr<EnvironmentMaps>> maps;
     std::optional<ReferenceBuffers> reference;
     Frame frame;

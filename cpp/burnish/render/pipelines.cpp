@@ -8,6 +8,7 @@
 #include "spirv/shade_background_comp.h"
 #include "spirv/shade_classify_tiles_comp.h"
 #include "spirv/shade_finish_tiles_comp.h"
+#include "spirv/shade_list_lights_comp.h"
 #include "spirv/shade_lookups_alone_comp.h"
 #include "spirv/shade_reference_comp.h"
 #include "spirv/shade_shade_matched_by_view_comp.h"
@@ -29,6 +30,7 @@ const std::map<std::string, std::span<const uint32_t>>& spirv() {
         {"shade/background.comp", shade_background_comp_spv},
         {"shade/classify_tiles.comp", shade_classify_tiles_comp_spv},
         {"shade/finish_tiles.comp", shade_finish_tiles_comp_spv},
+        {"shade/list_lights.comp", shade_list_lights_comp_spv},
         {"shade/reference.comp", shade_reference_comp_spv},
         {"shade/shade_matched.comp", shade_shade_matched_comp_spv},
         {"shade/shade_matched_by_view.comp", shade_shade_matched_by_view_comp_spv},

@@ -10,7 +10,7 @@ namespace burnish::render {
 struct Placeholders {
     vulkan::Buffer buffer;
     vulkan::TexelView rows;
-    vulkan::Image surface, varying;
+    vulkan::Image surface, varying, depth;
 
     explicit Placeholders(const vulkan::DevicePointer& device);
 };

@@ -160,6 +160,7 @@ std::unique_ptr<FrameWork> Renderer::prepare_frame(const Scene& scene, const Cam
     PreparedMaps maps = prepare_maps(plan, map_times);
     work->maps = std::move(maps.sets);
     work->tables = make_shade_tables(device_, scene, plan, maps.layers, tables_, diffuse_);
+    work->lights = make_light_table(device_, plan, glm::dvec3(camera.world_from_camera[3]));
     work->times = work->tables.pass_times;
     add_pass_times(work->times, map_times);
     work->counts_non_finite = counts_non_finite;
@@ -171,7 +172,7 @@ std::unique_ptr<FrameWork> Renderer::prepare_frame(const Scene& scene, const Cam
     frame.has_display = plan.settings.display_exposure.has_value();
     const bool is_mean = plan.settings.spp > 1;
     frame.targets = targets_->take(settings.width, settings.height, plan.has_varying, is_mean,
-                                   frame.has_display, uint32_t(plan.classes.size()) + 1);
+                                   frame.has_display, tile_list_count(plan));
     frame.report = start_report(scene, plan, work->tables);
     frame.report.width = settings.width;
     frame.report.height = settings.height;
@@ -195,6 +196,7 @@ void Renderer::make_frame_passes(FrameWork& work, const Scene& scene, GpuScene& 
                              .counters = &targets.counters,
                              .display = has_display && !is_mean ? &targets.display : nullptr,
                              .display_scale = display_scale,
+                             .lights = &work.lights,
                              .counts_non_finite = work.counts_non_finite};
     const glm::dvec3 eye(work.frame.camera.world_from_camera[3]);
     work.surface.emplace(pipelines_, gpu_scene, scene, plan, eye, targets);

@@ -40,7 +40,9 @@ struct ShadePoints {
     std::span<const glm::vec3> normals;
     std::span<const glm::vec3>
         tangents; ///< not parallel to the normal, else a frame of the engine's choice is used
-    std::span<const glm::vec3> views; ///< toward the eye
+    std::span<const glm::vec3> views;                 ///< toward the eye
+    std::span<const glm::dvec3> positions{};          ///< in the world; none where nothing asks for them
+    const std::vector<DirectLight>* lights = nullptr; ///< that light them, beside the environment
 };
 
 struct RendererSettings {

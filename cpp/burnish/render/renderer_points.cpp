@@ -15,6 +15,17 @@ glm::vec3 unit_or_zero(const glm::vec3& vector) {
     return length > 0.0 ? glm::vec3(wide / length) : glm::vec3(0.0f);
 }
 
+/// Of their box: what they are relative to in float32.
+glm::dvec3 middle_of(std::span<const glm::dvec3> positions) {
+    if (positions.empty()) return glm::dvec3(0.0);
+    glm::dvec3 low = positions[0], high = positions[0];
+    for (const glm::dvec3& position : positions) {
+        low = glm::min(low, position);
+        high = glm::max(high, position);
+    }
+    return 0.5 * low + 0.5 * high;
+}
+
 } // namespace
 
 std::vector<glm::vec3> Renderer::shade(const std::shared_ptr<const Environment>& environment,
@@ -47,6 +58,7 @@ std::vector<glm::vec3> Renderer::shade_points(const std::shared_ptr<const Enviro
     scene.materials = {material};
     scene.materials[0].source.reset(); // points carry no texture coordinates: its factors hold everywhere
     scene.objects.emplace_back();
+    if (points.lights) scene.lights = *points.lights;
     const Plan plan = make_plan(scene, settings);
     std::vector<vulkan::PassTime> map_times;
     const PreparedMaps maps = prepare_maps(plan, map_times);
@@ -54,11 +66,14 @@ std::vector<glm::vec3> Renderer::shade_points(const std::shared_ptr<const Enviro
     std::vector<vulkan::PassTime> times = tables.pass_times;
     add_pass_times(times, map_times);
 
+    const glm::dvec3 origin = middle_of(points.positions);
+    const LightTable lights = make_light_table(device_, plan, origin);
     std::vector<shared::SurfacePoint> records(count);
     for (size_t k = 0; k < count; ++k)
-        records[k] = {glm::vec4(unit_or_zero(points.normals[k]), 0.0f),
-                      glm::vec4(unit_or_zero(points.tangents[k]), 1.0f),
-                      glm::vec4(unit_or_zero(points.views[k]), 0.0f)};
+        records[k] = {
+            glm::vec4(unit_or_zero(points.normals[k]), 0.0f),
+            glm::vec4(unit_or_zero(points.tangents[k]), 1.0f), glm::vec4(unit_or_zero(points.views[k]), 0.0f),
+            glm::vec4(points.positions.empty() ? glm::dvec3(0.0) : points.positions[k] - origin, 0.0f)};
     const VkBufferUsageFlags storage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT;
     const vulkan::Buffer point_buffer =
         vulkan::make_buffer(device_, std::as_bytes(std::span(records)), storage);
@@ -68,12 +83,14 @@ std::vector<glm::vec3> Renderer::shade_points(const std::shared_ptr<const Enviro
     if (plan.sampler.is_truth) reference = make_reference_buffers(scene, plan, count);
     Report local = start_report(scene, plan, tables);
     ShadeInputs inputs{nullptr, &point_buffer, uint32_t(count), &radiance, &counters};
+    inputs.lights = &lights;
     inputs.counts_non_finite = reference.has_value();
     for (;; inputs.counts_non_finite = true) {
         const ShadePass shade(pipelines_, plan, tables, maps.sets, inputs, placeholders_,
                               reference ? &*reference : nullptr);
         vulkan::Commands commands(device_);
         shade.record_start(commands);
+        shade.record_light_lists(commands);
         if (!reference) shade.record_shade(commands, {});
         commands.submit();
         add_pass_times(times, commands.pass_times());

@@ -7,6 +7,7 @@
 
 #include "burnish/plan/plan.h"
 #include "burnish/render/environment_maps.h"
+#include "burnish/render/light_table.h"
 #include "burnish/render/pipelines.h"
 #include "burnish/render/placeholders.h"
 #include "burnish/render/shade_tables.h"
@@ -25,6 +26,7 @@ struct ShadeInputs {
     const vulkan::Buffer* counters = nullptr;
     const vulkan::Buffer* display = nullptr; ///< a byte a channel, likewise: then nothing goes to `radiance`
     float display_scale = 1.0f;
+    const LightTable* lights = nullptr;
     bool counts_non_finite = false; ///< and blackens; else it is only found out that there was some
 };
 
@@ -51,6 +53,8 @@ public:
 
     /// Lists the tiles of every class; pixels only.
     void record_tiles(vulkan::Commands& commands) const;
+    /// Lists the lights that reach each tile or group of points, where the plan says so.
+    void record_light_lists(vulkan::Commands& commands) const;
     /// One pass. `push` is completed with what the inputs say.
     void record_class(vulkan::Commands& commands, uint32_t shade_class, shared::ShadeRecord push) const;
     /// Those of all classes.
@@ -67,12 +71,14 @@ private:
     struct Stage {
         const vulkan::ComputePipeline* pipeline;
         vulkan::DescriptorSet set;
-        uint32_t shade_class;
+        uint32_t tile_list;
     };
 
     Stage make_stage(Pipelines& pipelines, const std::string& shader,
-                     const vulkan::SpecializationConstants& constants, uint32_t shade_class,
+                     const vulkan::SpecializationConstants& constants, uint32_t tile_list,
                      const EnvironmentMaps* maps, const ReferenceBuffers* reference);
+    /// Tiles, or groups of points.
+    uint32_t light_list_count() const;
     void dispatch(vulkan::Commands& commands, const Stage& stage, shared::ShadeRecord push) const;
     const vulkan::Buffer& output() const { return inputs_.display ? *inputs_.display : *inputs_.radiance; }
     VkDeviceSize pixel_bytes() const { return inputs_.display ? sizeof(uint32_t) : sizeof(glm::vec4); }
@@ -82,11 +88,13 @@ private:
     const ShadeTables& tables_;
     ShadeInputs inputs_;
     const Placeholders& unused_;
-    vulkan::Sampler sampler_;
+    vulkan::Sampler sampler_, depth_sampler_;
     bool is_reference_;
-    std::vector<Stage> classes_;
+    std::vector<std::vector<Stage>> classes_; ///< each for lit tiles, and for those that no light reaches
     std::vector<Stage> background_;
     std::vector<Stage> tile_stages_;
+    std::vector<Stage> light_stages_;
+    vulkan::Buffer light_lists_;
 };
 
 } // namespace burnish::render

@@ -61,10 +61,15 @@ vulkan::SpecializationConstants common_constants(const Plan& plan, uint32_t shad
     constants.set(shared::SPEC_SOURCE, target.is_points ? shared::SOURCE_POINTS : shared::SOURCE_PIXELS)
         .set(shared::SPEC_IS_DISPLAY, target.is_display)
         .set(shared::SPEC_COUNTS_NON_FINITE, target.counts_non_finite)
-        .set(shared::SPEC_SHADE_CLASS, shade_class);
+        .set(shared::SPEC_SHADE_CLASS, shade_class)
+        .set(shared::SPEC_TILE_LIST, shade_class + (target.is_dark ? first_dark_list(plan) : 0));
     for (const Effect& effect : effects())
         if (effect.is_of_reference || !is_reference)
             constants.set(effect.constant, one.variant[effect.constant]);
+    if (target.is_dark)
+        constants.set(shared::SPEC_HAS_LIGHTS, 0u);
+    else if (one.variant[shared::SPEC_HAS_LIGHTS])
+        constants.set(shared::SPEC_LISTS_LIGHTS, plan.lists_lights);
     add_lookup_constants(constants, plan.map_sets[one.map_set]);
     return constants;
 }
@@ -88,6 +93,14 @@ void add_pattern_constants(vulkan::SpecializationConstants& constants, const Sha
 }
 
 } // namespace
+
+uint32_t first_dark_list(const Plan& plan) {
+    return uint32_t(plan.classes.size()) + 1;
+}
+
+uint32_t tile_list_count(const Plan& plan) {
+    return first_dark_list(plan) * (plan.lists_lights ? 2 : 1);
+}
 
 ComputeKey shade_key(const Plan& plan, const ShadeTables& tables, uint32_t shade_class, ShadeTarget target) {
     const ShadeClass& one = plan.classes[shade_class];

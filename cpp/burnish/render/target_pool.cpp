@@ -11,15 +11,14 @@ constexpr size_t MOST_IDLE = 2;
 } // namespace
 
 std::shared_ptr<FrameTargets> TargetPool::take(uint32_t width, uint32_t height, bool has_varying,
-                                               bool has_sum, bool has_display, uint32_t class_count) {
+                                               bool has_sum, bool has_display, uint32_t list_count) {
     std::unique_ptr<FrameTargets> targets;
     {
         const std::lock_guard lock(mutex_);
         // What does not fit goes first: its memory may be needed.
         std::erase_if(idle_, [&](const auto& one) {
             return one->width != width || one->height != height || one->has_varying != has_varying ||
-                   one->has_sum != has_sum || one->has_display != has_display ||
-                   one->class_count < class_count;
+                   one->has_sum != has_sum || one->has_display != has_display || one->list_count < list_count;
         });
         if (!idle_.empty()) {
             targets = std::move(idle_.back());
@@ -28,7 +27,7 @@ std::shared_ptr<FrameTargets> TargetPool::take(uint32_t width, uint32_t height, 
     }
     if (!targets)
         targets = std::make_unique<FrameTargets>(device_, width, height, has_varying, has_sum, has_display,
-                                                 class_count);
+                                                 list_count);
     return {targets.release(), [pool = weak_from_this()](FrameTargets* one) {
                 std::unique_ptr<FrameTargets> owned(one);
                 if (const auto alive = pool.lock()) alive->give_back(std::move(owned));

@@ -16,7 +16,7 @@ public:
     explicit TargetPool(vulkan::DevicePointer device) : device_(std::move(device)) {}
 
     std::shared_ptr<FrameTargets> take(uint32_t width, uint32_t height, bool has_varying, bool has_sum,
-                                       bool has_display, uint32_t class_count);
+                                       bool has_display, uint32_t list_count);
     /// Lets go of those that wait.
     void clear();
 

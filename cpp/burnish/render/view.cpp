@@ -52,6 +52,10 @@ shared::ViewRecord make_view(const Camera& camera, uint32_t width, uint32_t heig
     view.ray_corner = glm::vec4(corner + jitter_px.x * right + jitter_px.y * down, 0.0f);
     view.ray_dx = glm::vec4(right, 0.0f);
     view.ray_dy = glm::vec4(down, 0.0f);
+    glm::dmat4 place = world_from_picture(camera, width, height);
+    place[3] += double(jitter_px.x) * place[0] + double(jitter_px.y) * place[1];
+    place[2] = glm::min(place[2], glm::dvec4(std::numeric_limits<float>::max()));
+    view.world_from_picture = glm::mat4(place);
     view.width_px = width;
     view.height_px = height;
     return view;

@@ -129,6 +129,8 @@ void validate(const Scene& scene) {
     }
     for (size_t i = 0; i < scene.cameras.size(); ++i)
         within(message("cameras[", i, "]"), [&] { validate(scene.cameras[i]); });
+    for (size_t i = 0; i < scene.lights.size(); ++i)
+        within(message("lights[", i, "]"), [&] { validate(scene.lights[i]); });
     for (size_t i = 0; i < scene.objects.size(); ++i) {
         const Object& object = scene.objects[i];
         std::string where = message("objects[", i, "].");

@@ -8,6 +8,7 @@
 #include <glm/glm.hpp>
 
 #include "burnish/light/environment.h"
+#include "burnish/light/direct_light.h"
 #include "burnish/scene/camera.h"
 #include "burnish/scene/material.h"
 #include "burnish/scene/mesh.h"
@@ -40,6 +41,7 @@ struct Scene {
     SharedParts<TextureImage> images;
     std::vector<Object> objects;
     std::vector<Camera> cameras;
+    std::vector<DirectLight> lights;
     std::shared_ptr<const Environment> environment;
     bool show_background = true;       ///< draw the environment where no object is
     std::vector<std::string> warnings; ///< what was repaired or left out while loading, a sentence each

@@ -91,27 +91,48 @@ def shade_suns(suns: Sequence[Sun], frame: LocalFrame, lobe: LobeLike) -> Array:
     -------
     radiance : (..., 3)
     """
-    omega_o = frame.omega_o
-    model = model_of(lobe)
-    total = np.zeros(omega_o.shape)
-    axes = np.stack([frame.tangent, frame.bitangent, frame.normal], axis=-2)
+    total = np.zeros(frame.omega_o.shape)
     for sun in suns:
-        omega_i = axes @ sun.direction
-        h = normalize(omega_i + omega_o)
-        seen = (omega_i[..., 2] > 0) & (h[..., 2] > 1e-3)
-        h = np.where(seen[..., None], h, [0.0, 0.0, 1.0])
-        o_h = np.maximum(dot(omega_o, h), 1e-4)
-        covariance = _slope_covariance(h, omega_o, o_h, sun.variance)
-        i = np.where(seen[..., None], omega_i, [0.0, 0.0, 1.0])
-        density = model.widened_d(h[..., :2] / h[..., 2:], lobe, covariance) / h[..., 2] ** 4
-        value = np.where(seen, density * model.rest(i, omega_o, o_h, lobe), 0.0)
-        fresnel = schlick_fresnel(o_h[..., None], as_array(lobe.r0), grazing_reflectance(lobe))
-        total = total + value[..., None] * fresnel * sun.flux
+        total = total + shade_small_light(sun.direction, sun.variance, frame, lobe) * sun.flux
     return total
 
 
-def _slope_covariance(h: Array, omega_o: Array, o_h: Array, variance: float) -> Array:
-    """Covariance (..., 2, 2) of the slopes of half-vectors under a sun."""
+def shade_small_light(
+    direction: npt.ArrayLike, variance: npt.ArrayLike, frame: LocalFrame, lobe: LobeLike
+) -> Array:
+    """F f cos_i, (..., 3), of a lobe that is wider by a light; see `shade_suns`.
+
+    Parameters
+    ----------
+    direction : (3,) or (..., 3)
+        World frame, unit, to the light's middle.
+    variance : float or (...)
+        Of its directions, per axis, radian^2.
+    frame : LocalFrame
+        Of the lobe.
+    lobe : lobe
+        Its weight does not count.
+    """
+    omega_o, model = frame.omega_o, model_of(lobe)
+    axes = np.stack([frame.tangent, frame.bitangent, frame.normal], axis=-2)
+    omega_i = np.einsum("...ij,...j->...i", axes, as_array(direction))
+    total = omega_i + omega_o
+    length = np.linalg.norm(total, axis=-1, keepdims=True)
+    h = total / np.maximum(length, 1e-300)
+    seen = (omega_i[..., 2] > 0) & (h[..., 2] > 1e-3) & (length[..., 0] > 1e-6)
+    h = np.where(seen[..., None], h, [0.0, 0.0, 1.0])
+    o_h = np.maximum(dot(omega_o, h), 1e-4)
+    covariance = _slope_covariance(h, omega_o, o_h, as_array(variance))
+    i = np.where(seen[..., None], omega_i, [0.0, 0.0, 1.0])
+    density = model.widened_d(h[..., :2] / h[..., 2:], lobe, covariance) / h[..., 2] ** 4
+    value = np.where(seen, density * model.rest(i, omega_o, o_h, lobe), 0.0)
+    fresnel = schlick_fresnel(o_h[..., None], as_array(lobe.r0), grazing_reflectance(lobe))
+    result: Array = value[..., None] * fresnel
+    return result
+
+
+def _slope_covariance(h: Array, omega_o: Array, o_h: Array, variance: Array) -> Array:
+    """Covariance (..., 2, 2) of the slopes of half-vectors under a light of small extent."""
     across = np.cross(omega_o, h)
     # Toward the light any two directions will do.
     facing = dot(across, across) <= 1e-8
@@ -122,5 +143,6 @@ def _slope_covariance(h: Array, omega_o: Array, o_h: Array, variance: float) -> 
     scale = 0.5 * np.sqrt(variance) / h[..., 2]
     steps = scale[..., None] * along, (scale / o_h)[..., None] * across
     moved = [step[..., :2] - slope * np.clip(step[..., 2:], -_MOST_STEP, _MOST_STEP) for step in steps]
-    result: Array = sum(one[..., :, None] * one[..., None, :] for one in moved)
+    first, second = (one[..., :, None] * one[..., None, :] for one in moved)
+    result: Array = first + second
     return result

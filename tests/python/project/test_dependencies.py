@@ -50,9 +50,10 @@ def cpp_violations(area, text):
 
 
 def glsl_violations(area, text):
-    """Entry points may include their own folder, lookup, lobe, lib and shared; lib knows no lobe."""
-    own = {"shared": {"shared"}, "lib": {"lib", "shared"}, "lobe": {"lobe", "lib", "shared"}}
-    allowed = own.get(area, {area, "lookup", "lobe", "lib", "shared"})
+    """Entry points may include their own folder, lookup, lobe, light, lib and shared; lib knows none of them."""
+    own = {"shared": {"shared"}, "lib": {"lib", "shared"}}
+    own |= {name: {name, "lib", "shared"} for name in ("lobe", "light")}
+    allowed = own.get(area, {area, "lookup", "lobe", "light", "lib", "shared"})
     for _, name in INCLUDE.findall(re.sub(r"#ifdef __cplusplus.*?#(else|endif)", "", text, flags=re.DOTALL)):
         if name.split("/")[0] not in allowed:
             yield f'{area} includes "{name}"'

@@ -57,8 +57,15 @@ def test_advise_takes_the_documented_arguments():
 
 def test_shade_takes_the_documented_arguments():
     expected = ["env", "material", "sampler", "normals", "tangents", "views", "filter", "device", "strict"]
-    assert names(burnish.shade) == [*expected, "report"]
-    assert defaults(burnish.shade) == {"filter": "gauss6", "device": None, "strict": False, "report": False}
+    assert names(burnish.shade) == [*expected, "report", "positions", "scene"]
+    assert defaults(burnish.shade) == {
+        "filter": "gauss6",
+        "device": None,
+        "strict": False,
+        "report": False,
+        "positions": None,
+        "scene": None,
+    }
 
 
 def test_capture_takes_the_documented_arguments():

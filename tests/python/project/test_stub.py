@@ -7,7 +7,7 @@ from burnish import _core
 
 REPOSITORY = Path(__file__).resolve().parents[3]
 # The first names all that the extension has, and takes what stands in the others from there.
-STUBS = ("_core", "_lobes", "_samplers", "_texels", "_timings")
+STUBS = ("_core", "_devices", "_lights", "_lobes", "_samplers", "_texels", "_timings")
 # pybind11 gives every class these; the stub says nothing about them.
 IGNORED = {"__init__", "__repr__", "__str__", "__module__", "__doc__"}
 

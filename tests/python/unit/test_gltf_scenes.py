@@ -85,7 +85,6 @@ CHANGING = [
     "KHR_materials_volume",
     "KHR_materials_sheen",
     "KHR_materials_iridescence",
-    "KHR_lights_punctual",
     "KHR_materials_pbrSpecularGlossiness",
     "KHR_node_visibility",
 ]

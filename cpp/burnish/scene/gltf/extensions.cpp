@@ -9,10 +9,16 @@
 namespace burnish::gltf {
 namespace {
 
-const std::set<std::string> SUPPORTED = {
-    "KHR_materials_specular",          "KHR_materials_ior",     "KHR_materials_clearcoat",
-    "KHR_materials_anisotropy",        "KHR_materials_unlit",   "KHR_texture_transform",
-    "KHR_materials_emissive_strength", "KHR_mesh_quantization", "EXT_mesh_gpu_instancing"};
+const std::set<std::string> SUPPORTED = {"KHR_materials_specular",
+                                         "KHR_materials_ior",
+                                         "KHR_materials_clearcoat",
+                                         "KHR_materials_anisotropy",
+                                         "KHR_materials_unlit",
+                                         "KHR_texture_transform",
+                                         "KHR_materials_emissive_strength",
+                                         "KHR_mesh_quantization",
+                                         "EXT_mesh_gpu_instancing",
+                                         "KHR_lights_punctual"};
 
 /// They hold metadata, other choices than the file's own, behaviour over time, or a second encoding of data
 /// that the file has to give plainly too where it does not require the extension.
@@ -59,7 +65,6 @@ const std::map<std::string, std::string> DRAWN_INSTEAD = {
     {"EXT_lights_ies", "its lights are not drawn: the scene's environment is all its light"},
     {"EXT_lights_image_based", "its environment is not read: the scene's environment is all its light"},
     {"KHR_gaussian_splatting", "splats are not drawn"},
-    {"KHR_lights_punctual", "its lights are not drawn: the scene's environment is all its light"},
     {"KHR_materials_diffuse_transmission", "its materials are drawn opaque"},
     {"KHR_materials_dispersion", "its materials are drawn without dispersion"},
     {"KHR_materials_iridescence", "its materials are drawn without the colours of a thin film"},

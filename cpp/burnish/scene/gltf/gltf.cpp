@@ -6,6 +6,7 @@
 
 #include "burnish/check.h"
 #include "burnish/error.h"
+#include "burnish/scene/gltf/light.h"
 #include "burnish/scene/gltf/material.h"
 #include "burnish/scene/gltf/mesh.h"
 #include "burnish/scene/idle_parts.h"
@@ -53,6 +54,8 @@ private:
         require_affine(document_, world_from_node, message("nodes[", index, "]"));
         if (node.mesh >= 0) add_objects(index, world_from_node);
         if (node.camera >= 0) add_camera(index, world_from_node);
+        if (const auto light = light_of(document_, index, world_from_node, scene_.warnings))
+            scene_.lights.push_back(*light);
     }
 
     void add_objects(int index, const glm::dmat4& world_from_node) {

@@ -53,6 +53,8 @@ public:
         // Sizes are taken first: checking changes the values.
         for (const auto& [name, value] : root.items())
             if (value.is_array()) sizes_[name] = value.size();
+        const json::json_pointer lights("/extensions/KHR_lights_punctual/lights");
+        if (root.contains(lights) && root[lights].is_array()) sizes_["lights"] = root[lights].size();
     }
 
     void check_members(json& object, const Properties& members, const std::string& where) const {

@@ -107,10 +107,23 @@ Property meshes() {
 Property nodes() {
     const Property instancing = object(
         "EXT_mesh_gpu_instancing", {{.name = "attributes", .kind = Kind::index_map, .target = "accessors"}});
-    return objects("nodes", {text("name"), index("camera", "cameras"), indices("children", "nodes"),
-                             index("skin", "skins"), index("mesh", "meshes"), numbers("matrix", 16),
-                             numbers("rotation", 4), numbers("scale", 3), numbers("translation", 3),
-                             numbers("weights", 0), object("extensions", {instancing})});
+    return objects(
+        "nodes",
+        {text("name"), index("camera", "cameras"), indices("children", "nodes"), index("skin", "skins"),
+         index("mesh", "meshes"), numbers("matrix", 16), numbers("rotation", 4), numbers("scale", 3),
+         numbers("translation", 3), numbers("weights", 0),
+         object("extensions",
+                {instancing, object("KHR_lights_punctual", {required(index("light", "lights"))})})});
+}
+
+Property root_extensions() {
+    return object(
+        "extensions",
+        {object(
+            "KHR_lights_punctual",
+            {objects("lights", {text("name"), required(text("type")), numbers("color", 3),
+                                number("intensity"), number("range"),
+                                object("spot", {number("innerConeAngle"), number("outerConeAngle")})})})});
 }
 
 Property cameras() {
@@ -142,6 +155,7 @@ const Properties& root_properties() {
         meshes(),
         nodes(),
         cameras(),
+        root_extensions(),
         objects("scenes", {indices("nodes", "nodes"), text("name")}),
         index("scene", "scenes"),
         objects("skins", {text("name"), index("inverseBindMatrices", "accessors"), index("skeleton", "nodes"),
