@@ -117,13 +117,18 @@ LobePoint ggx_at(vec3 omega_o, vec2 p, vec2 a) {
     return point;
 }
 
-// D cos_h^4 of a lobe that is wider by a light: such a C has about the peak of a lobe that is smoothed by as
-// much. In the tail, where the first form is large, nothing changes.
+// D cos_h^4 of a lobe that is wider by a light. The density is a mean of normal ones of variance a^2/(2 u)
+// under exp(-u): those narrower than the light, u above some u0, become one of its variance and their own
+// mean; the others remain, a little wider. In the tail next to nothing changes.
 float ggx_widened_d(Widened w, vec2 a) {
     vec2 a2 = a * a;
-    float x = widened_form(w, a2, 1.5).x;
-    vec2 form = widened_form(w, a2, 1.5 / (1.0 + 0.5 * x));
-    return 1.0 / (PI * sqrt(form.y) * (1.0 + form.x) * (1.0 + form.x));
+    float share = max(0.25 * (w.wider.x / a2.x + w.wider.y / a2.y), 1e-6), u0 = 0.4 / share;
+    float x = w.slope.x * w.slope.x / a2.x + w.slope.y * w.slope.y / a2.y;
+    vec2 form = widened_form(w, a2, 1.5 / (1.0 + 3.0 * share + 0.3 * x));
+    float y = u0 * (1.0 + x);
+    float tail = (1.0 - (1.0 + y) * exp(-y)) / (sqrt(form.y) * (1.0 + form.x) * (1.0 + form.x));
+    form = widened_form(w, a2 * log(1.0 + 1.0 / u0), 1.0);
+    return (tail + exp(-u0 - form.x) / sqrt(form.y)) / PI;
 }
 
 #endif

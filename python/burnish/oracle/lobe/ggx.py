@@ -196,17 +196,25 @@ def values(omega_i: Array, omega_o: Array, lobe: Any) -> Values:
 
 
 def widened_d(slope: Array, lobe: Any, covariance: Array) -> Array:
-    """D cos_h^4 of a lobe whose slopes have a covariance (..., 2, 2) on top of their own.
+    """D cos_h^4 of a lobe whose slopes have a covariance S (..., 2, 2) on top of their own.
 
-    (1 + s^T C^-1 s)^-2/(pi det C^1/2) with C = diag(alpha^2) + 3 covariance/(1 + x/2): such a C has about the
-    peak of a lobe that is smoothed by as much (within 8 % for variances up to alpha^2). In the tail, where
-    x, s^T C^-1 s without the quotient, is large, nothing changes.
+    (1 + x)^-2/(pi ax ay) is the mean of normal densities of covariance A/(2u), A = diag(alpha^2), under e^-u
+    du. Those narrower than S, u > u0 = .4/s with s = tr(A^-1 S)/2, become one of covariance S and their mean,
+    about A ln(1 + 1/u0)/2. The others are D times 1 - (1 + y) e^-y, y = u0 (1 + x), of A + 3 S/(1 + 3 s + .3
+    x) for A: the peak of a lobe smoothed by little, and the tail as it was. Of a round lobe and S within 10 %
+    at the peak, 16 % anywhere; 8 % in the mean over its light.
     """
-    ax, ay = slopes(lobe)
-    own, wider = np.diag([ax * ax, ay * ay]), 3 * covariance
-    x, _ = quadratic_form(own + wider, slope)
-    x, determinant = quadratic_form(own + wider / (1 + 0.5 * x)[..., None, None], slope)
-    result: Array = 1 / (np.pi * np.sqrt(determinant) * (1 + x) ** 2)
+    own = np.diag(np.square(slopes(lobe)))
+    share = 0.5 * np.trace(np.linalg.solve(own, covariance), axis1=-2, axis2=-1)
+    u0 = 0.4 / np.maximum(share, 1e-6)
+    x, _ = quadratic_form(own + 0 * covariance, slope)
+    wider = own + 3 * covariance / (1 + 3 * share + 0.3 * x)[..., None, None]
+    form, determinant = quadratic_form(wider, slope)
+    y = u0 * (1 + x)
+    tail = (1 - (1 + y) * np.exp(-y)) / (np.sqrt(determinant) * (1 + form) ** 2)
+    merged = own * np.log1p(1 / u0)[..., None, None] + 2 * covariance
+    form, determinant = quadratic_form(merged, slope)
+    result: Array = (tail + np.exp(-u0 - form) / np.sqrt(determinant)) / np.pi
     return result
 
 
