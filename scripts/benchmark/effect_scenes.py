@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 from PIL import Image
 
-from burnish import Environment, GgxLobe, KurtLobe, Material, Mesh, Scene
+from burnish import Environment, GgxLobe, KurtLobe, Material, Mesh, PointLight, Scene
 
 Row = tuple[str, tuple[str, ...], tuple[Scene, Scene, Scene], tuple[int, int, int]]
 # As good as nothing in any pixel, yet not nothing to the plan.
@@ -24,6 +24,12 @@ def _sphere(environment: Environment, material: Material) -> Scene:
 
 def _lobes(environment: Environment, *lobes: KurtLobe | GgxLobe, **fields: object) -> Scene:
     return _sphere(environment, Material(lobes=list(lobes), **fields))
+
+
+def _lit(environment: Environment, lobe: KurtLobe, lights: list[PointLight]) -> Scene:
+    scene = _lobes(environment, lobe, diffuse=0.5)
+    scene.lights = lights
+    return scene
 
 
 def _data_uri(mime: str, data: bytes) -> str:
@@ -181,6 +187,9 @@ def effect_scenes(folder: Path, environment: Environment) -> Iterator[Row]:
     # Beside a diffuse part that is not covered.
     layers = [_lobes(environment, lobe, diffuse=d, layered=k > 0) for k, d in enumerate((0.5, TRACE, 0.5))]
     yield "layers", ("shade",), (layers[0], layers[1], layers[2]), once
+    # Beside a light that reaches nothing: tiles are sorted, and that is all.
+    lights = ([], [PointLight((0, 99, 0), range=1)], [PointLight((3, 3, 3), 20, radius=0.3)])
+    yield "light", ("shade",), tuple(_lit(environment, KurtLobe(0.1), some) for some in lights), once
     yield "accumulation", ("wall",), (plain, plain, plain), (1, 2, 4)
     yield from _texture_rows(folder, environment)
     yield from _mask_and_unlit_rows(folder, environment)
