@@ -137,11 +137,105 @@ ValueError
         .def("__repr__", [](const GgxLobe& l) { return repr(l); });
 }
 
+LafortuneLobe make_lafortune_lobe(const Triple& c, float exponent, const Color& weight, float rotation) {
+    LafortuneLobe lobe{vec3_of(c), exponent, vec3_of(weight), rotation};
+    validate(lobe);
+    return lobe;
+}
+
+SheenLobe make_sheen_lobe(float roughness, const Color& weight) {
+    SheenLobe lobe{roughness, vec3_of(weight)};
+    validate(lobe);
+    return lobe;
+}
+
+/// Widths of a lobe's plane, whichever model it is of.
+template <typename Model>
+py::tuple width_of(const Model& lobe) {
+    return tuple_of(facts(lobe).width());
+}
+
+void bind_lafortune_lobe(py::module_& m) {
+    py::class_<LafortuneLobe>(m, "LafortuneLobe",
+                              R"(One lobe after Lafortune et al. 1997. It does not change once made.
+
+f = weight max(cx ox ix + cy oy iy + cz oz iz, 0)^exponent: a power of the cosine around p = (cx ox, cy oy, cz oz),
+|p|^exponent at its peak. c = (-1, -1, 1) is Phong's lobe around the mirrored view, (1, 1, 1) lies around the view
+itself; |cz| below the others leans to the horizon. Nothing limits its energy: |c| = ((n + 2)/(2 pi))^(1/n) gives
+back all that comes along the normal.
+
+Parameters
+----------
+c : (float, float, float)
+    Along tangent, bitangent and normal, each in -1000..1000.
+exponent : float
+    In 0..1e6.
+weight : float or (float, float, float)
+    Colour, >= 0.
+rotation : float
+    Radians; turns the tangent counter-clockwise about the normal.
+
+Raises
+------
+ValueError
+    If a number is out of its range.)")
+        .def(py::init(&make_lafortune_lobe), py::arg("c") = Triple{-1.0f, -1.0f, 1.0f},
+             py::arg("exponent") = 10.0f, py::arg("weight") = Color(1.0f), py::arg("rotation") = 0.0f)
+        .def_property_readonly(
+            "c", [](const LafortuneLobe& l) { return tuple_of(l.c); },
+            "(float, float, float): along tangent, bitangent and normal.")
+        .def_readonly("exponent", &LafortuneLobe::exponent, "Power of the cosine.")
+        .def_property_readonly(
+            "weight", [](const LafortuneLobe& l) { return tuple_of(l.weight); },
+            "(float, float, float): colour.")
+        .def_readonly("rotation", &LafortuneLobe::rotation, "Radians about the normal.")
+        .def_property_readonly("width", &width_of<LafortuneLobe>,
+                               "(float, float): (1/2/(exponent + 1))^(1/2), how wide it is as a slope of "
+                               "half-vectors.")
+        .def_property_readonly("is_anisotropic", &LafortuneLobe::is_anisotropic, "Whether cx and cy differ.")
+        .def("__repr__", [](const LafortuneLobe& l) {
+            return message("LafortuneLobe(c=(", l.c.x, ", ", l.c.y, ", ", l.c.z, "), exponent=", l.exponent,
+                           ", weight=(", l.weight.x, ", ", l.weight.y, ", ", l.weight.z,
+                           "), rotation=", l.rotation, ")");
+        });
+}
+
+void bind_sheen_lobe(py::module_& m) {
+    py::class_<SheenLobe>(m, "SheenLobe", R"(The glow of cloth toward grazing. It does not change once made.
+
+f = weight D V of KHR_materials_sheen (Estevez and Kulla 2017): D = (2 + 1/a) sin_h^(1/a)/(2 pi), a = roughness^2
+but at least .001, and the fitted V. Last among layered lobes it lies over the others, which get what it leaves.
+
+Parameters
+----------
+roughness : float
+    Perceptual, as glTF's sheenRoughness, in 0..1.
+weight : float or (float, float, float)
+    Colour, >= 0.
+
+Raises
+------
+ValueError
+    If a number is out of its range.)")
+        .def(py::init(&make_sheen_lobe), py::arg("roughness") = 0.3f, py::arg("weight") = Color(1.0f))
+        .def_readonly("roughness", &SheenLobe::roughness, "Perceptual.")
+        .def_property_readonly(
+            "weight", [](const SheenLobe& l) { return tuple_of(l.weight); }, "(float, float, float): colour.")
+        .def_property_readonly("width", &width_of<SheenLobe>,
+                               "(float, float): of its plane, that of a cosine about the normal.")
+        .def("__repr__", [](const SheenLobe& l) {
+            return message("SheenLobe(roughness=", l.roughness, ", weight=(", l.weight.x, ", ", l.weight.y,
+                           ", ", l.weight.z, "))");
+        });
+}
+
 } // namespace
 
 void bind_lobes(py::module_& m) {
     bind_kurt_lobe(m);
     bind_ggx_lobe(m);
+    bind_lafortune_lobe(m);
+    bind_sheen_lobe(m);
 }
 
 } // namespace burnish

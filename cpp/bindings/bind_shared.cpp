@@ -29,7 +29,7 @@ std::map<std::string, Layout> shared_layout() {
           FIELD(LobeRecord, table_count), FIELD(LobeRecord, albedo_begin),
           FIELD(LobeRecord, albedo_width_nodes), FIELD(LobeRecord, threshold_log), FIELD(LobeRecord, energy),
           FIELD(LobeRecord, level_share), FIELD(LobeRecord, view_columns), FIELD(LobeRecord, view_drift),
-          FIELD(LobeRecord, cover)}},
+          FIELD(LobeRecord, cover), FIELD(LobeRecord, own)}},
         {"MaterialRecord",
          {FIELD(MaterialRecord, diffuse), FIELD(MaterialRecord, emissive), FIELD(MaterialRecord, lobe_begin),
           FIELD(MaterialRecord, lobe_count), FIELD(MaterialRecord, map), FIELD(MaterialRecord, shade_class)}},

@@ -37,12 +37,13 @@ struct LobeView {
     uint model;      // MODEL_...
     vec2 roughness;
     float alpha;
+    vec4 own;          // of its model
     float cos_o_power; // max(cos_o, MIN_COS)^-alpha
     float threshold_log;
     float layer;
 };
 
-LobeShape shape_of(LobeView v) { return LobeShape(v.model, v.roughness, v.alpha); }
+LobeShape shape_of(LobeView v) { return LobeShape(v.model, v.roughness, v.alpha, v.own); }
 
 struct LobeSums {
     vec3 base;         // sum of w L

@@ -243,25 +243,23 @@ void place_pair(LobeView v, MixtureView view, vec4 entry, out Lookup one, out Lo
 }
 
 // clang-format off
-#define PLACE_PAIR(k, one, other)                                                                            \
-    if (SAMPLE_COUNT / 2u > uint(k)) place_pair(v, view, sample_entry(view.row + int(odd) + k), one, other);
-#define ADD_PAIR(k, one, other)                                                                              \
-    if (SAMPLE_COUNT / 2u > uint(k)) { add_lookup(sums, one); add_lookup(sums, other); }
-#define GATHER_PAIRS(a, b)                                                                                   \
-    PLACE_PAIR(a, l0, l1) PLACE_PAIR(b, l2, l3) ADD_PAIR(a, l0, l1) ADD_PAIR(b, l2, l3)
-// All samples of `view`, a MixtureView or a PlaneMixture, at the point `v`.
+// All samples of `view`, a MixtureView or a PlaneMixture, at the point `v`, two pairs at a turn: a driver that
+// compiles functions before it knows constants has each of them here but twice.
 #define GATHER_MIXTURE                                                                                       \
     LobeSums sums = LobeSums(vec3(0.0), vec3(0.0), 0.0, 0.0, 0.0);                                           \
     Lookup l0, l1, l2, l3;                                                                                   \
-    const uint odd = SAMPLE_COUNT & 1u;                                                                      \
-    if (odd == 1u) {                                                                                         \
-        place_pair(v, view, sample_entry(view.row), l0, l1);                                                 \
+    const uint odd = SAMPLE_COUNT & 1u, pairs = odd + SAMPLE_COUNT / 2u;                                     \
+    [[unroll]] for (uint k = 0u; k < pairs; k += 2u) {                                                       \
+        bool has_next = k + 1u < pairs;                                                                      \
+        place_pair(v, view, sample_entry(view.row + int(k)), l0, l1);                                        \
+        if (has_next) place_pair(v, view, sample_entry(view.row + int(k) + 1), l2, l3);                      \
         add_lookup(sums, l0);                                                                                \
+        if (k > 0u || odd == 0u) add_lookup(sums, l1); /* the one in the middle has none */                  \
+        if (has_next) {                                                                                      \
+            add_lookup(sums, l2);                                                                            \
+            add_lookup(sums, l3);                                                                            \
+        }                                                                                                    \
     }                                                                                                        \
-    GATHER_PAIRS(0, 1) GATHER_PAIRS(2, 3) GATHER_PAIRS(4, 5) GATHER_PAIRS(6, 7)                              \
-    GATHER_PAIRS(8, 9) GATHER_PAIRS(10, 11) GATHER_PAIRS(12, 13) GATHER_PAIRS(14, 15)                        \
-    GATHER_PAIRS(16, 17) GATHER_PAIRS(18, 19) GATHER_PAIRS(20, 21) GATHER_PAIRS(22, 23)                      \
-    GATHER_PAIRS(24, 25) GATHER_PAIRS(26, 27) GATHER_PAIRS(28, 29) GATHER_PAIRS(30, 31)                      \
     return sums;
 // clang-format on
 

@@ -49,7 +49,9 @@ PlaneMixture place_mixture(LobeView v, uint table_begin, float level_share, vec3
     set_axes(view, lobe_linear_map(view.shape, v.local_o), v.local_o);
     float rho = 1.0 / view.inverse_rho;
     float width = max(v.roughness.x, v.roughness.y);
-    bool is_second = width > MATCHED_SECOND_WINDOW_WIDTH, is_third = width > MATCHED_THIRD_WINDOW_WIDTH;
+    bool has_windows = has_tail(v.model);
+    bool is_second = has_windows && width > MATCHED_SECOND_WINDOW_WIDTH;
+    bool is_third = has_windows && width > MATCHED_THIRD_WINDOW_WIDTH;
     view.window = is_third    ? 0.5 / (MATCHED_THIRD_WINDOW * MATCHED_THIRD_WINDOW)
                   : is_second ? 0.5 / (MATCHED_SECOND_WINDOW * MATCHED_SECOND_WINDOW)
                               : 0.0;

@@ -18,9 +18,10 @@ float prefiltered_level(float roughness, float face_size) {
 // The map knows round lobes: a brushed one is taken for the round one of equal area. Points seen from behind
 // are black.
 vec3 look_up_prefiltered(LobeView v, SurfaceLobe lobe, vec2 albedo, float face_size) {
-    vec3 mirror = 2.0 * v.local_o.z * v.frame[2] - v.omega_o;
-    float level = prefiltered_level(lobe_filter_slope(shape_of(v)), face_size);
-    vec3 light = IS_WITHOUT_LOOKUPS ? mirror + level : load_map(aim_at_map(mirror, v.layer, level));
+    LobeShape shape = shape_of(v);
+    vec3 axis = v.frame * lobe_axis(shape, v.local_o);
+    float level = prefiltered_level(lobe_filter_slope(shape), face_size);
+    vec3 light = IS_WITHOUT_LOOKUPS ? axis + level : load_map(aim_at_map(axis, v.layer, level));
     vec3 reflectance = lobe.specular * albedo.x;
     if (HAS_FRESNEL) reflectance += lobe.grazing * albedo.y;
     return v.local_o.z > 0.0 ? light * reflectance * v.cos_o_power : vec3(0.0);

@@ -65,6 +65,7 @@ LobeRecord load_lobe(uint index) {
     lobe.view_columns = row.z;
     lobe.view_drift = row.w;
     lobe.cover = uintBitsToFloat(ROW(lobe_rows, LOBE, 5));
+    lobe.own = uintBitsToFloat(ROW(lobe_rows, LOBE, 6));
     return lobe;
 }
 

@@ -34,11 +34,9 @@ struct LobeView {
 
 // f cos_i, with Fresnel and weight, for a local direction and the half-vector between.
 vec3 reflectance(LobeView v, vec3 local_i, vec3 h) {
-    if (local_i.z <= 0.0 || h.z <= 0.0) return vec3(0.0);
-    float cos_d = max(dot(v.local_o, h), 1e-20);
-    float grazing = grazing_term(local_i.z, v.local_o.z, v.shape.alpha);
-    float value = lobe_d(v.shape, h) * lobe_rest(v.shape, local_i, v.local_o, cos_d, grazing);
-    return value * (v.lobe.specular + v.lobe.grazing * schlick_weight(cos_d));
+    if (local_i.z <= 0.0) return vec3(0.0);
+    float value = lobe_value(v.shape, local_i, v.local_o, h);
+    return value * (v.lobe.specular + v.lobe.grazing * schlick_weight(dot(v.local_o, h)));
 }
 
 vec3 half_vector(vec3 a, vec3 b) {
@@ -122,19 +120,19 @@ vec3 draw_texel(uint index, uint seed, MapRecord map) {
 
 vec3 weigh(LobeView v, vec3 direction, vec3 local_i, vec3 h, MapRecord map) {
     vec3 value = reflectance(v, local_i, h);
-    float pdf = lobe_pdf(v.shape, v.local_o, h) + texel_pdf(direction, map);
+    float pdf = lobe_pdf(v.shape, local_i, v.local_o, h) + texel_pdf(direction, map);
     return value * look_up_finest(direction, v.layer) / max(pdf, 1e-20);
 }
 
 vec3 progressive(LobeView v, MapRecord map, uint seed) {
     vec3 sum = vec3(0.0);
     for (uint k = 0u; k < push.batch_size; ++k) {
-        vec3 h = lobe_sample(v.shape, v.local_o, recurrence_2d(k, seed));
-        vec3 local_i = 2.0 * dot(v.local_o, h) * h - v.local_o;
+        LobeDraw drawn = lobe_draw(v.shape, v.local_o, recurrence_2d(k, seed));
         vec3 term = vec3(0.0);
-        if (dot(v.local_o, h) > 0.0 && local_i.z > 0.0) term = weigh(v, v.frame * local_i, local_i, h, map);
+        if (dot(v.local_o, drawn.h) > 0.0 && drawn.omega_i.z > 0.0)
+            term = weigh(v, v.frame * drawn.omega_i, drawn.omega_i, drawn.h, map);
         vec3 direction = draw_texel(k, seed, map);
-        local_i = direction * v.frame;
+        vec3 local_i = direction * v.frame;
         if (local_i.z > 0.0) term += weigh(v, direction, local_i, half_vector(local_i, v.local_o), map);
         sum += term;
     }
@@ -186,13 +184,13 @@ vec3 shade_disc(LobeView v, vec3 middle, ArrivingLight light, uint seed) {
         float sine = sqrt(depth * (2.0 - depth));
         vec3 local_i = basis * vec3(sine * cos(azimuth), sine * sin(azimuth), 1.0 - depth);
         vec3 h = half_vector(local_i, v.local_o);
-        sum += reflectance(v, local_i, h) / (disc_pdf + lobe_pdf(v.shape, v.local_o, h));
-        h = lobe_sample(v.shape, v.local_o, x);
-        local_i = 2.0 * dot(v.local_o, h) * h - v.local_o;
-        vec3 beside = cross(local_i, middle);
-        bool is_lit =
-            dot(v.local_o, h) > 0.0 && dot(local_i, middle) > 0.0 && dot(beside, beside) <= light.sine2;
-        if (is_lit) sum += reflectance(v, local_i, h) / (disc_pdf + lobe_pdf(v.shape, v.local_o, h));
+        sum += reflectance(v, local_i, h) / (disc_pdf + lobe_pdf(v.shape, local_i, v.local_o, h));
+        LobeDraw drawn = lobe_draw(v.shape, v.local_o, x);
+        vec3 beside = cross(drawn.omega_i, middle);
+        bool is_lit = dot(v.local_o, drawn.h) > 0.0 && dot(drawn.omega_i, middle) > 0.0 &&
+                      dot(beside, beside) <= light.sine2;
+        float pdf = disc_pdf + lobe_pdf(v.shape, drawn.omega_i, v.local_o, drawn.h);
+        if (is_lit) sum += reflectance(v, drawn.omega_i, drawn.h) / pdf;
     }
     return sum * (light.irradiance / (PI * light.sine2 * float(count)));
 }
@@ -229,14 +227,15 @@ void main() {
         mat3 frame = lobe_frame(point_frame(point, which), record);
         v.local_o = point.omega_o * frame;
         v.frame = environment_from_world(map, frame);
-        v.shape = LobeShape(lobe_model(which), v.lobe.roughness, record.alpha);
+        v.shape = LobeShape(lobe_model(which), v.lobe.roughness, record.alpha, record.own);
         v.layer = float(map.layer);
         uint seed = hash_uint(point.index * 4u + which) ^ hash_uint(push.batch + 0x51633e2du);
         vec3 light = IS_QUADRATURE ? quadrature(v, map) : progressive(v, map, seed);
         if (has_lights) light += reference_lights(v, point, frame, seed) / map.radiance_scale;
         float through = 1.0;
         if (CONSERVES_ENERGY || HAS_LAYERS) {
-            vec2 albedo = lobe_albedo(record, v.lobe.roughness, v.local_o);
+            vec2 albedo = lobe_albedo_gain(v.shape, v.local_o) *
+                          lobe_albedo(record, lobe_albedo_width(v.shape), v.local_o);
             float power = pow(max(v.local_o.z, MIN_COS), -record.alpha);
             albedo *= power;
             vec3 scale = energy_scale(record, reflectance_of(v.lobe), albedo.x);

@@ -40,6 +40,7 @@ void shade_lobe(PointToShade point, MapRecord map, uint lobe_index, uint which, 
     v.model = lobe_model(which);
     v.roughness = lobe.roughness;
     v.alpha = record.alpha;
+    v.own = record.own;
     v.cos_o_power = cos_o_power(v.local_o.z, record.alpha);
     v.area_term = published_area_term(v.local_o);
     v.threshold_log = record.threshold_log;
@@ -48,7 +49,8 @@ void shade_lobe(PointToShade point, MapRecord map, uint lobe_index, uint which, 
     vec2 albedo = vec2(0.0);
     if (NORMALIZATION == NORMALIZATION_FURNACE || CONSERVES_ENERGY || TABLE == TABLE_PREFILTERED ||
         HAS_LAYERS)
-        albedo = lobe_albedo(record, v.roughness, v.local_o);
+        albedo = lobe_albedo_gain(shape_of(v), v.local_o) *
+                 lobe_albedo(record, lobe_albedo_width(shape_of(v)), v.local_o);
     vec3 light = look_up_lobe(v, lobe, record, albedo, map);
     if (SUN_COUNT > 0u) light += shade_suns(v, map, lobe.specular, lobe.grazing);
     if (HAS_LIGHTS) light += shade_lights(v, point, frame, lobe) / map.radiance_scale;

@@ -18,6 +18,10 @@ vec2 slope_step(vec3 step, vec2 slope) {
 // directions is v/4 of half-vectors in the plane of view and light, v/(4 (o.h)^2) across it: at grazing views
 // much more.
 vec3 shade_small_light(LobeView v, vec3 omega_i, float variance, vec3 flux, vec3 specular, vec3 grazing) {
+    if (!has_half_vectors(v.model)) {
+        float value = omega_i.z > 0.0 ? lobe_under_light(shape_of(v), omega_i, v.local_o, variance) : 0.0;
+        return value * specular * flux;
+    }
     vec3 h = omega_i + v.local_o;
     float length2 = dot(h, h);
     bool is_seen = omega_i.z > 0.0 && h.z > 1e-3 * sqrt(length2) && length2 > 1e-12;

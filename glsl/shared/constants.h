@@ -169,6 +169,8 @@ SHARED_CONST uint SOURCE_POINTS = 1u;
 // Models of lobes.
 SHARED_CONST uint MODEL_KURT = 0u;
 SHARED_CONST uint MODEL_GGX = 1u;
+SHARED_CONST uint MODEL_LAFORTUNE = 2u;
+SHARED_CONST uint MODEL_SHEEN = 3u;
 SHARED_CONST uint MODEL_BITS = 4u;
 // What is done about a lobe's energy: nothing; more than it gets is divided out; what is lost between facets
 // is put back.

@@ -8,7 +8,7 @@
 SHARED_BEGIN
 
 // Rows of 16 bytes: shade kernels read records by them (shade/records.glsl).
-SHARED_CONST uint LOBE_ROWS = 6u;
+SHARED_CONST uint LOBE_ROWS = 7u;
 SHARED_CONST uint MATERIAL_ROWS = 3u;
 SHARED_CONST uint MAP_ROWS = 21u;
 SHARED_CONST uint LIGHT_ROWS = 4u;
@@ -33,6 +33,7 @@ struct LobeRecord {
                      // across
     vec4 cover;      // of layers, see Cover (scene/material.h). xy: what it takes from what lies below, x E1
                      // + y Es of its albedo; x < 0: what it reflects; z: 1 if emission lies below, too
+    vec4 own;        // of models that have more than widths, see glsl/lobe
 };
 SHARED_SIZE(LobeRecord, 16 * LOBE_ROWS)
 

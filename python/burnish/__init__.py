@@ -23,16 +23,19 @@ __all__ = [
     "GgxLobe",
     "Importance",
     "KurtLobe",
+    "LafortuneLobe",
     "Matched",
     "Material",
     "Mesh",
     "Object",
+    "PhongLobe",
     "PointLight",
     "Prefiltered",
     "Reference",
     "Regular",
     "Report",
     "Scene",
+    "SheenLobe",
     "SpotLight",
     "VulkanError",
     "__version__",
@@ -57,6 +60,7 @@ if _load_failure() is None:
         GgxLobe,
         Importance,
         KurtLobe,
+        LafortuneLobe,
         Matched,
         Material,
         Mesh,
@@ -66,6 +70,7 @@ if _load_failure() is None:
         Reference,
         Regular,
         Scene,
+        SheenLobe,
         SpotLight,
         VulkanError,
         list_devices,
@@ -73,6 +78,7 @@ if _load_failure() is None:
     )
     from burnish._methods import attach as _attach
     from burnish.advice import Advice, advise
+    from burnish.lobes import PhongLobe
     from burnish.render import render
     from burnish.rendering import shade
 

@@ -15,6 +15,8 @@ from burnish._lights import PointLight as PointLight
 from burnish._lights import SpotLight as SpotLight
 from burnish._lobes import GgxLobe as GgxLobe
 from burnish._lobes import KurtLobe as KurtLobe
+from burnish._lobes import LafortuneLobe as LafortuneLobe
+from burnish._lobes import SheenLobe as SheenLobe
 from burnish._samplers import Importance as Importance
 from burnish._samplers import Matched as Matched
 from burnish._samplers import Prefiltered as Prefiltered
@@ -38,6 +40,7 @@ _Pair: TypeAlias = float | Sequence[float]
 _Color: TypeAlias = float | Sequence[float]
 _Rotation: TypeAlias = float | ArrayLike | None
 _Progress: TypeAlias = Callable[[float, str], None] | None
+_Lobe: TypeAlias = KurtLobe | GgxLobe | LafortuneLobe | SheenLobe
 _Light: TypeAlias = PointLight | DirectionalLight | SpotLight
 _Sampler: TypeAlias = Regular | Importance | Matched | Prefiltered | Reference
 
@@ -48,7 +51,7 @@ class Material:
     def __init__(
         self,
         diffuse: _Color = 0.0,
-        lobes: Sequence[KurtLobe | GgxLobe] = (),
+        lobes: Sequence[_Lobe] = (),
         emissive: _Color = 0.0,
         name: str = "",
         double_sided: bool = False,
@@ -80,7 +83,7 @@ class Material:
     @property
     def diffuse(self) -> tuple[float, float, float]: ...
     @property
-    def lobes(self) -> tuple[KurtLobe | GgxLobe, ...]: ...
+    def lobes(self) -> tuple[_Lobe, ...]: ...
     @property
     def emissive(self) -> tuple[float, float, float]: ...
     @property

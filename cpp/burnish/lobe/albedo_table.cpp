@@ -111,9 +111,9 @@ glm::dvec2 directional_albedo(glm::dvec3 omega_o, glm::dvec2 roughness, double a
 
 AlbedoTable build_albedo_table(const LobeShape& shape) {
     AlbedoTable table;
-    table.width_nodes = shape.is_round() ? 1 : WIDTH_NODES;
+    const glm::dvec2 m = shape.model->albedo_width(shape);
+    table.width_nodes = m.x == m.y ? 1 : WIDTH_NODES;
     table.entries.resize(table.width_nodes * ALBEDO_COS_NODES);
-    const glm::dvec2 m = shape.width();
     const double low = std::min(m.x, m.y), high = std::max(m.x, m.y);
     for_each_on_cores(table.width_nodes, table.width_nodes > 1, [&](size_t j) {
         glm::dvec2 azimuth(1.0, 0.0);

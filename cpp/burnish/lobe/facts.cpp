@@ -41,6 +41,7 @@ shared::LobeRecord make_record(const LobeShape& shape, glm::vec3 weight, glm::ve
     record.rotation_cos = std::cos(rotation);
     record.rotation_sin = std::sin(rotation);
     record.albedo_width_nodes = 1;
+    record.own = glm::vec4(shape.own[0], shape.own[1], shape.own[2], shape.own[3]);
     return record;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <compare>
 #include <cstdint>
 #include <string>
@@ -39,26 +40,21 @@ struct LobeModel;
 /// All of a lobe that decides where it reflects light to: lobes of equal shapes share tables.
 struct LobeShape {
     const LobeModel* model = nullptr;
-    float width_x = 0.3f, width_y = 0.3f; ///< along tangent and bitangent
+    float width_x = 0.3f, width_y = 0.3f; ///< along tangent and bitangent, as slopes of half-vectors
     float alpha = 0.0f;                   ///< power of cosines, of models that have it
     /// F = specular + grazing (1 - o.h)^5 over all channels, of which the sum is 1: weighs directions.
     float specular = 1.0f, grazing = 0.0f;
+    std::array<float, 4> own{}; ///< of models that have more than widths, see their files
 
     glm::dvec2 width() const { return {width_x, width_y}; }
     bool is_round() const { return width_x == width_y; }
     auto operator<=>(const LobeShape&) const = default;
 };
 
-/// A lobe is f cos_i di = base K d^2p, K its density and p a place of its plane in units of its widths:
-/// samplers place points there, and these functions say what a point is. Views are unit vectors in the lobe's
-/// axes.
-struct LobeModel {
-    const char* name;
-    uint32_t id; ///< MODEL_... of glsl/shared/constants.h
-    Density density;
-    /// A lobe's half-vectors are the same from everywhere, slopes p times the widths, and published samplers
-    /// say what to do with them.
-    bool has_fixed_half_vectors;
+/// The host asks this of models whose mixtures are placed once for every view of a material. A lobe is f
+/// cos_i di = base K d^2p, K its density and p a place of its plane in units of its widths: samplers place
+/// points there, and these functions say what a point is. Views are unit vectors in the lobe's axes.
+struct ViewPlane {
     /// Power of cos_i in the base, which changes most from view to view.
     double (*lit_exponent)(const LobeShape& shape);
     LobePoint (*at)(const LobeShape& shape, glm::dvec3 omega_o, glm::dvec2 p);
@@ -68,10 +64,28 @@ struct LobeModel {
     double (*stretch)(const LobeShape& shape, glm::dvec3 omega_o, glm::dvec2 one, glm::dvec2 other);
     /// How far mixtures follow the moments of what is reflected, see weighted_lobe.h.
     double (*moment_share)(const LobeShape& shape);
-    /// (E1, Es): integrals of f cos_i over light for F = 1 and for F = (1 - o.h)^5; of models with alpha
-    /// without cos_o^-alpha. `is_quick`: within 3e-3, for tables of a hundred thousand entries.
-    glm::dvec2 (*albedo)(const LobeShape& shape, glm::dvec3 omega_o, bool is_quick);
 };
+
+struct LobeModel {
+    const char* name;
+    uint32_t id; ///< MODEL_... of glsl/shared/constants.h
+    Density density;
+    /// A lobe's half-vectors are the same from everywhere, slopes p times the widths, and published samplers
+    /// say what to do with them.
+    bool has_fixed_half_vectors;
+    const ViewPlane* view; ///< null: mixtures are placed at every point, by the kernels
+    /// (E1, Es): integrals of f cos_i over light for F = 1 and for F = (1 - o.h)^5, without powers that
+    /// change fast from view to view: cos_o^-alpha, |p|^n. `is_quick`: within 3e-3, for tables of a hundred
+    /// thousand entries.
+    glm::dvec2 (*albedo)(const LobeShape& shape, glm::dvec3 omega_o, bool is_quick);
+    /// The albedo depends on the azimuth as these widths do.
+    glm::dvec2 (*albedo_width)(const LobeShape& shape);
+};
+
+/// Albedo widths of models that have no others.
+inline glm::dvec2 plane_width(const LobeShape& shape) {
+    return shape.width();
+}
 
 struct LobeFacts {
     LobeShape shape;

@@ -144,17 +144,22 @@ glm::dvec2 albedo(const LobeShape& shape, glm::dvec3 omega_o, bool is_quick) {
                     : integrate<RADII, AZIMUTHS>(shape, omega_o);
 }
 
-constexpr LobeModel GGX = {
-    .name = "GGX",
-    .id = shared::MODEL_GGX,
-    .density = Density::student,
-    .has_fixed_half_vectors = false,
+constexpr ViewPlane VIEW = {
     .lit_exponent = lit_exponent,
     .at = at,
     .linear_map = linear_map,
     .stretch = stretch,
     .moment_share = moment_share,
+};
+
+constexpr LobeModel GGX = {
+    .name = "GGX",
+    .id = shared::MODEL_GGX,
+    .density = Density::student,
+    .has_fixed_half_vectors = false,
+    .view = &VIEW,
     .albedo = albedo,
+    .albedo_width = plane_width,
 };
 
 } // namespace

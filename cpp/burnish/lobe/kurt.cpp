@@ -58,17 +58,22 @@ glm::dvec2 albedo(const LobeShape& shape, glm::dvec3 omega_o, bool is_quick) {
     return directional_albedo(omega_o, shape.width(), shape.alpha, is_quick);
 }
 
-constexpr LobeModel KURT = {
-    .name = "Kurt",
-    .id = shared::MODEL_KURT,
-    .density = Density::gaussian,
-    .has_fixed_half_vectors = true,
+constexpr ViewPlane VIEW = {
     .lit_exponent = lit_exponent,
     .at = at,
     .linear_map = linear_map,
     .stretch = stretch,
     .moment_share = moment_share,
+};
+
+constexpr LobeModel KURT = {
+    .name = "Kurt",
+    .id = shared::MODEL_KURT,
+    .density = Density::gaussian,
+    .has_fixed_half_vectors = true,
+    .view = &VIEW,
     .albedo = albedo,
+    .albedo_width = plane_width,
 };
 
 } // namespace

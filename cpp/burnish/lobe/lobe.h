@@ -6,10 +6,12 @@
 
 #include "burnish/lobe/ggx.h"
 #include "burnish/lobe/kurt.h"
+#include "burnish/lobe/lafortune.h"
+#include "burnish/lobe/sheen.h"
 
 namespace burnish {
 
-using Lobe = std::variant<KurtLobe, GgxLobe>;
+using Lobe = std::variant<KurtLobe, GgxLobe, LafortuneLobe, SheenLobe>;
 
 /// Throws std::invalid_argument, naming field, range and value; `prefix` goes before the field's name.
 inline void validate(const Lobe& lobe, const std::string& prefix = "") {

@@ -80,9 +80,13 @@ EffectLine light_line(const Scene& scene, const Plan& plan) {
 std::string why_at_every_point(const ShadeClass& one, const std::vector<const Material*>& materials) {
     if (one.variant[shared::SPEC_HAS_VARYING]) return "roughness varies over the surface";
     for (const Material* material : materials)
-        for (const Lobe& lobe : material->lobes)
-            if (!fits_view_table(facts(lobe).width()))
+        for (const Lobe& shown : material->lobes) {
+            const LobeFacts lobe = facts(shown);
+            if (!lobe.shape.model->view)
+                return message("a ", lobe.shape.model->name, " lobe has no table by view");
+            if (!fits_view_table(lobe.width()))
                 return "a table by view would be too coarse for so brushed a lobe";
+        }
     return "tables by view of so many brushed lobes would take too much memory";
 }
 

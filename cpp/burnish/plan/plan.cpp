@@ -101,7 +101,7 @@ bool fit_view_tables(const Scene& scene, const Plan& plan) {
     std::set<MatchedLobe> tables;
     for (const MaterialInstance& instance : plan.instances)
         for (const Lobe& one : scene.materials[instance.material].lobes)
-            if (const LobeFacts lobe = facts(one); lobe.is_brushed)
+            if (const LobeFacts lobe = facts(one); lobe.is_brushed && lobe.shape.model->view)
                 tables.insert(
                     {.samples = plan.sampler.samples, .shape = lobe.shape, .has_schlick = lobe.has_fresnel});
     uint64_t entries = 0;
@@ -116,7 +116,8 @@ bool fit_view_tables(const Scene& scene, const Plan& plan) {
 TableForm matched_form(const Material& material, bool fit_tables, ShadeClass& one) {
     const bool has_varying = one.variant[shared::SPEC_HAS_VARYING];
     if (!has_varying && !any_lobe(material, [&](const LobeFacts& lobe) {
-            return lobe.is_brushed && !(fit_tables && fits_view_table(lobe.width()));
+            return !lobe.shape.model->view ||
+                   (lobe.is_brushed && !(fit_tables && fits_view_table(lobe.width())));
         }))
         return TableForm::matched_by_view;
     one.has_wide_components = has_varying || any_lobe(material, [](const LobeFacts& lobe) {

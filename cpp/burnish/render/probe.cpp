@@ -12,8 +12,10 @@
 #include "spirv/probe_frame_comp.h"
 #include "spirv/probe_ggx_lobe_comp.h"
 #include "spirv/probe_kurt_lobe_comp.h"
+#include "spirv/probe_lafortune_lobe_comp.h"
 #include "spirv/probe_metallic_roughness_comp.h"
 #include "spirv/probe_random_comp.h"
+#include "spirv/probe_sheen_lobe_comp.h"
 #include "spirv/probe_spherical_harmonics_comp.h"
 
 namespace burnish::render {
@@ -29,6 +31,8 @@ std::span<const uint32_t> find_spirv(const std::string& library) {
         {"footprint", probe_footprint_comp_spv},
         {"frame", probe_frame_comp_spv},
         {"ggx_lobe", probe_ggx_lobe_comp_spv},
+        {"lafortune_lobe", probe_lafortune_lobe_comp_spv},
+        {"sheen_lobe", probe_sheen_lobe_comp_spv},
         {"kurt_lobe", probe_kurt_lobe_comp_spv},
         {"metallic_roughness", probe_metallic_roughness_comp_spv},
         {"display", probe_display_comp_spv},

@@ -37,7 +37,7 @@ Place place_over(const LobeShape& shape, const SquareView& view, const Moments& 
                           scale * glm::dvec2(doubled.y, doubled.z + determinant));
     Place place;
     place.center = share * moments.mean;
-    const glm::dmat2 map = shape.model->linear_map(shape, view.omega_o, place.center) * root;
+    const glm::dmat2 map = shape.model->view->linear_map(shape, view.omega_o, place.center) * root;
     const glm::dvec2 e = view.e;
     glm::dvec2 v1 = e;
     if (shape.is_round()) {
@@ -100,7 +100,7 @@ public:
     Row(const MatchedLobe& lobe, const WeightedLobe& weighted, MixtureTable table, glm::vec2 drift,
         glm::dvec2 square)
         : shape_(lobe.shape), face_size_(lobe.face_size), table_(table), points_(points_of(lobe.shape)),
-          lit_exponent_(shape_.model->lit_exponent(shape_)) {
+          lit_exponent_(shape_.model->view->lit_exponent(shape_)) {
         const SquareView view = view_of_square(square);
         omega_o_ = view.omega_o;
         place_ = place_over(shape_, view, weighted.at(square), weighted.share());
@@ -146,7 +146,7 @@ private:
     /// most 1, what the sphere holds.
     double linear_variance(glm::dvec2 y, double s) const {
         const glm::dvec2 p = place_of(y), h = s * steepest_;
-        const double stretch = shape_.model->stretch(shape_, omega_o_, p + h, p - h);
+        const double stretch = shape_.model->view->stretch(shape_, omega_o_, p + h, p - h);
         return std::min(variance_share_ * s * s * area_ / place_.rho * stretch, 1.0);
     }
 
@@ -156,7 +156,7 @@ private:
         Mean mean;
         for (const Point& point : points_) {
             const glm::dvec2 at = y + s * glm::dvec2(point.x / place_.rho, point.y), p = place_of(at);
-            const LobePoint light = shape_.model->at(shape_, omega_o_, p);
+            const LobePoint light = shape_.model->view->at(shape_, omega_o_, p);
             if (light.base <= 0.0) continue;
             const double share = point.share * area_ * table_.ratio(glm::dot(p, p), glm::dot(at, at));
             const double grey = share * grey_of(shape_, light);

@@ -30,7 +30,7 @@ Moments sum_moments(const LobeShape& shape, glm::dvec3 omega_o) {
         for (int i = -SUM_REACH; i <= SUM_REACH; ++i) {
             const glm::dvec2 p = SUM_STEP * glm::dvec2(i, j);
             const double value =
-                grey_of(shape, shape.model->at(shape, omega_o, p)) * std::exp(-glm::dot(p, p));
+                grey_of(shape, shape.model->view->at(shape, omega_o, p)) * std::exp(-glm::dot(p, p));
             sum += value;
             first += value * p;
             second += value * glm::dvec3(p.x * p.x, p.x * p.y, p.y * p.y);
@@ -42,9 +42,9 @@ Moments sum_moments(const LobeShape& shape, glm::dvec3 omega_o) {
 
 /// Slope of the half-vector in the middle of mixtures.
 glm::dvec2 middle_slope(const LobeShape& shape, glm::dvec3 omega_o) {
-    const double share = shape.model->moment_share(shape);
+    const double share = shape.model->view->moment_share(shape);
     const glm::dvec2 middle = share > 0.0 ? share * sum_moments(shape, omega_o).mean : glm::dvec2(0.0);
-    const glm::dvec3 h = shape.model->at(shape, omega_o, middle).omega_i + omega_o;
+    const glm::dvec3 h = shape.model->view->at(shape, omega_o, middle).omega_i + omega_o;
     return glm::dvec2(h) / h.z;
 }
 
@@ -76,7 +76,7 @@ glm::vec2 lobe_drift(const LobeShape& shape) {
 }
 
 WeightedLobe::WeightedLobe(const LobeShape& shape)
-    : is_round_(shape.is_round()), share_(shape.model->moment_share(shape)) {
+    : is_round_(shape.is_round()), share_(shape.model->view->moment_share(shape)) {
     if (share_ <= 0.0) return;
     const size_t columns = is_round_ ? 1 : 2 * LAST + 1;
     nodes_.resize(columns * (LAST + 1));

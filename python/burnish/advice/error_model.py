@@ -27,7 +27,7 @@ from numpy.typing import NDArray
 from burnish import _core
 from burnish.advice.contrast import Spectrum
 from burnish.advice.families import FAMILIES
-from burnish.lobes import Lobe, grazing_exponent
+from burnish.lobes import Lobe, grazing_exponent, has_fresnel, width_of
 
 Float64 = NDArray[np.float64]
 
@@ -76,11 +76,11 @@ def traits_of_lobe(lobe: Lobe) -> LobeTraits:
 
     Parameters
     ----------
-    lobe : KurtLobe or GgxLobe
+    lobe : lobe
         Any. The model was fitted to Kurt's lobes; others have the errors of that of their widths, until a
         probe puts them right.
     """
-    return LobeTraits(lobe.roughness, lobe.has_fresnel, grazing_exponent(lobe))
+    return LobeTraits(width_of(lobe), has_fresnel(lobe), grazing_exponent(lobe))
 
 
 @dataclass(frozen=True)
@@ -210,8 +210,9 @@ def lobes_of(material: _core.Material) -> list[tuple[LobeTraits, float]]:
     """
     parts: list[tuple[LobeTraits, float]] = []
     for lobe in material.lobes:
-        share = float(np.mean(np.array(lobe.weight) * (np.array(lobe.r0) + 0.05 * (1.0 - np.array(lobe.r0)))))
-        slopes = [(lobe.roughness[0], lobe.roughness[1])]
+        r0 = np.array(getattr(lobe, "r0", 1.0))
+        share = float(np.mean(np.array(lobe.weight) * (r0 + 0.05 * (1.0 - r0))))
+        slopes = [width_of(lobe)]
         if material.is_metallic_roughness:
             slopes = [(slope, slope) for slope in TEXTURED_SLOPES]
         for pair in slopes:

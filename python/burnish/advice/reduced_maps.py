@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 
 from burnish import _core
 from burnish.cube_layout import cube_solid_angles, resample_faces
+from burnish.lobes import width_of
 from burnish.oracle.cube_map import add_border
 
 LOBE_TEXELS = 10.0
@@ -39,7 +40,7 @@ def reduced_face_size(materials: Sequence[_core.Material]) -> int:
     materials : sequence of Material
         Where roughness comes from a texture it is unknown: then at least `TEXTURED_FACE`.
     """
-    slopes = [min(lobe.roughness) for material in materials for lobe in material.lobes]
+    slopes = [min(width_of(lobe)) for material in materials for lobe in material.lobes]
     needed = LOBE_TEXELS / max(min(slopes, default=1.0), LEAST_ROUGHNESS)
     is_textured = any(material.is_metallic_roughness for material in materials)
     least = TEXTURED_FACE if is_textured else COARSEST_FACE

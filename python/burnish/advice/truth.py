@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from burnish import _core
 from burnish.advice.reduced_maps import LEAST_ROUGHNESS, largest_face_size, reduced_maps
 from burnish.frame import FloatArray, Frame
+from burnish.lobes import width_of
 from burnish.rendering import Filter, draw
 from burnish.samplers import sampler_from_text
 
@@ -60,7 +61,7 @@ def draw_truth(
     if not is_exact:
         with reduced_maps(scene, face_size // 2):
             coarse = draw(scene, camera, size, quadrature, device, 1, filter)
-    slopes = [min(lobe.roughness) for material in scene.materials for lobe in material.lobes]
+    slopes = [min(width_of(lobe)) for material in scene.materials for lobe in material.lobes]
     finest = min(face_size, largest_face_size(scene))
     largest_cosine = RIM_TEXELS / (finest * max(min(slopes, default=1.0), LEAST_ROUGHNESS))
     is_rim = view_cosines(fine.normal, camera or scene.default_camera()) < largest_cosine

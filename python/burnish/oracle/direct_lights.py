@@ -9,7 +9,7 @@ import numpy.typing as npt
 
 from .arrays import Array, as_array, dot, normalize
 from .estimator import local_frame
-from .lobe.base import grazing_reflectance, schlick_fresnel
+from .lobe.base import grazing_reflectance, normal_reflectance, rotation_of, schlick_fresnel
 from .lobe.models import model_of
 from .shading import add_layers, energy_scale
 from .sun_split import shade_small_light
@@ -117,7 +117,7 @@ def _sum_disc(light: Arriving, frame: Any, lobe: Any) -> Array:
         omega_i = np.stack([across * np.cos(azimuth), across * np.sin(azimuth), height], axis=-1) @ basis
         above = omega_i[:, 2] > 0
         values = model_of(lobe).values(omega_i[above].T, frame.omega_o[point], lobe)
-        fresnel = schlick_fresnel(values.o_h[:, None], lobe.r0, grazing_reflectance(lobe))
+        fresnel = schlick_fresnel(values.o_h[:, None], normal_reflectance(lobe), grazing_reflectance(lobe))
         # Of a sphere that is equally bright all over, E = pi L sine^2.
         solid_angle = 2 * np.pi * (1 - np.sqrt(1 - sine * sine))
         share = solid_angle / (np.pi * sine * sine) if sine > 0 else 1.0
@@ -144,7 +144,7 @@ def _shade(
     below = below * as_array(material.diffuse) / np.pi
     parts = []
     for lobe in material.lobes:
-        frame = local_frame(n, t, o, lobe.rotation)
+        frame = local_frame(n, t, o, rotation_of(lobe))
         total = sum((shade_lobe(light, frame, lobe) for light in arriving), np.zeros(n.shape))
         parts.append(total * energy_scale(n, t, o, lobe))
     return add_layers(material, parts, below, n, t, o, has_emission=False)

@@ -20,7 +20,7 @@ from .footprint import (
 )
 from .frame import frame_from_tangent, rotate_frame
 from .importance import Points
-from .lobe.base import MIN_COS_O, KurtLike, schlick_fresnel, slopes
+from .lobe.base import MIN_COS_O, KurtLike, normal_reflectance, rotation_of, schlick_fresnel, slopes
 from .lobe.kurt import grazing_factor, kurt_d, kurt_pdf_omega_i
 from .regular_pattern import lobe_solid_angle
 from .spherical_harmonics import irradiance
@@ -123,7 +123,7 @@ def shade_regular(
     radiance : (..., 3)
     """
     cube = pad_cube(levels)
-    frame = local_frame(n, t, omega_o, lobe.rotation)
+    frame = local_frame(n, t, omega_o, rotation_of(lobe))
     h = as_array(pattern)
     mx, my = slopes(lobe)
     local_o = frame.omega_o[..., None, :]
@@ -141,7 +141,7 @@ def shade_regular(
 
     d = kurt_d(h, mx, my)
     grazing = grazing_factor(local_i[..., 2], local_o[..., 2], lobe.alpha)
-    w = (d * grazing)[..., None] * schlick_fresnel(o_h[..., None], np.broadcast_to(as_array(lobe.r0), 3))
+    w = (d * grazing)[..., None] * schlick_fresnel(o_h[..., None], normal_reflectance(lobe))
     total: Array = np.sum(w * radiance, axis=-2)
     if normalization == "published":
         mean = total / np.sum(d)
@@ -149,7 +149,9 @@ def shade_regular(
         mean = total / np.sum(d * h[:, 2])
     elif normalization == "furnace":
         weights = np.sum(w, axis=-2)
-        albedo = blend_albedo(directional_albedo(frame.omega_o, (mx, my), lobe.alpha), lobe.r0)
+        albedo = blend_albedo(
+            directional_albedo(frame.omega_o, (mx, my), lobe.alpha), normal_reflectance(lobe)
+        )
         mean = np.where(weights > 0, total / np.where(weights > 0, weights, 1.0) * albedo, 0.0)
     else:
         names = '"published", "projected" or "furnace"'
@@ -168,7 +170,7 @@ def shade_importance(
 ) -> Array:
     """Radiance of one lobe by filtered importance sampling: mean F cos_i^(1-alpha) cos_o^-alpha L/cos_h."""
     cube = pad_cube(levels)
-    frame = local_frame(n, t, omega_o, lobe.rotation)
+    frame = local_frame(n, t, omega_o, rotation_of(lobe))
     h = as_array(half_vectors)
     local_o = frame.omega_o[..., None, :]
     local_i = reflect(local_o, h)
@@ -178,7 +180,7 @@ def shade_importance(
     texels = importance_texels(pdf, direction, len(h), cube.face_texels)
     radiance = sample_cube(cube, direction, level_of_texels(texels, cube.face_texels, mip_bias))
     grazing = grazing_factor(local_i[..., 2], local_o[..., 2], lobe.alpha) / h[:, 2]
-    w = grazing[..., None] * schlick_fresnel(o_h[..., None], np.broadcast_to(as_array(lobe.r0), 3))
+    w = grazing[..., None] * schlick_fresnel(o_h[..., None], normal_reflectance(lobe))
     mean: Array = np.mean(w * radiance, axis=-2)
     return as_array(lobe.weight) * mean
 

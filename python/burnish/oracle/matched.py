@@ -11,7 +11,7 @@ from .albedo import blend_albedo
 from .arrays import Array, as_array, dot, normalize
 from .cube_map import PaddedCube, pad_cube, sample_cube
 from .estimator import LocalFrame, local_frame
-from .lobe.base import LobeLike, grazing_reflectance, slopes
+from .lobe.base import LobeLike, grazing_reflectance, normal_reflectance, rotation_of, slopes
 from .lobe.models import model_of
 from .matched_means import (
     Means,
@@ -94,9 +94,9 @@ def rows_of(lobe: LobeLike, samples: int) -> Array:
 def placement_of(lobe: LobeLike) -> Placement:
     """How samples of a lobe are placed that no texture varies."""
     mx, my = slopes(lobe)
-    if max(mx, my) <= MOST_VIEW_ASPECT * min(mx, my):
+    if model_of(lobe).HAS_VIEW_TABLES and max(mx, my) <= MOST_VIEW_ASPECT * min(mx, my):
         return "view"
-    return "point" if model_of(lobe).DENSITY == "gaussian" else "wide point"
+    return "point" if model_of(lobe).HAS_FIXED_HALF_VECTORS else "wide point"
 
 
 def place_means(
@@ -203,12 +203,14 @@ def shade_matched(
     -------
     radiance : (..., 3)
     """
-    frame = local_frame(n, t, omega_o, lobe.rotation)
+    frame = local_frame(n, t, omega_o, rotation_of(lobe))
     count = closest_count(samples)
     rows, cube = rows_of(lobe, count), light_map.cube
     lookups = matched_lookups(frame, lobe, count, rows, cube.face_texels, placement)
     radiance = sample_cube(cube, lookups.direction, lookups.level)
     total, weights = np.sum(lookups.weight * radiance, axis=-2), np.sum(lookups.weight, axis=-2)
-    albedo = blend_albedo(model_of(lobe).albedo(frame.omega_o, lobe), lobe.r0, grazing_reflectance(lobe))
+    albedo = blend_albedo(
+        model_of(lobe).albedo(frame.omega_o, lobe), normal_reflectance(lobe), grazing_reflectance(lobe)
+    )
     mean = np.where(weights > 0, total / np.where(weights > 0, weights, 1.0) * albedo, 0.0)
     return as_array(lobe.weight) * (mean + shade_suns(light_map.suns, frame, lobe))

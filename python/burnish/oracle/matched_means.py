@@ -6,7 +6,7 @@ import numpy as np
 
 from .albedo import blend_albedo
 from .arrays import Array, dot
-from .lobe.base import LobeLike, grazing_reflectance, slopes
+from .lobe.base import LobeLike, grazing_reflectance, normal_reflectance, slopes
 from .lobe.models import model_of
 from .lobe_map import lobe_map, principal_axes
 from .matched_table import Mixture, plane_of_view, window_ratio
@@ -53,7 +53,7 @@ class Means:
 def linear_place(omega_o: Array, lobe: LobeLike) -> Place:
     """Over the lobe itself along the principal axes of `lobe_map`; of other densities `weighted_place`."""
     mx, my = slopes(lobe)
-    if model_of(lobe).DENSITY != "gaussian":
+    if not model_of(lobe).HAS_FIXED_HALF_VECTORS:
         return weighted_place(omega_o, lobe)
     a, b, v1, v2 = principal_axes(lobe_map(omega_o, mx, my)[0])
     axis1, axis2 = np.stack([mx * v1, my * v2], axis=-1), np.stack([-mx * v2, my * v1], axis=-1)
@@ -70,7 +70,7 @@ def weighted_place(omega_o: Array, lobe: LobeLike) -> Place:
     """
     mx, my = slopes(lobe)
     model = model_of(lobe)
-    if model.DENSITY == "gaussian":
+    if model.HAS_FIXED_HALF_VECTORS:
         moments, share = lobe_moments(omega_o, lobe), moment_share((mx, my))
         center, covariance = share * moments.mean, share * moments.covariance
     else:
@@ -169,7 +169,7 @@ def _means(
     """
     light = reflect_slopes(omega_o[..., None, None, :], lobe, points, bend)
     parts = [np.sum(shares * part, axis=-1) for part in (light.base, light.base * light.schlick)]
-    gains = blend_albedo(np.stack(parts, axis=-1), lobe.r0, grazing_reflectance(lobe))
+    gains = blend_albedo(np.stack(parts, axis=-1), normal_reflectance(lobe), grazing_reflectance(lobe))
     gain = np.sum(shares * light.grey, axis=-1)
     mean = np.sum((shares * light.grey)[..., None] * light.omega_i, axis=-2)
     # Where nothing is reflected, the mirror direction.

@@ -15,7 +15,7 @@ from .cube_map import PaddedCube, cube_stretch, sample_cube
 from .estimator import local_frame
 from .footprint import level_of_texels
 from .importance import point_set
-from .lobe.base import MIN_X1, grazing_reflectance, slopes
+from .lobe.base import MIN_X1, grazing_reflectance, normal_reflectance, rotation_of, slopes
 from .lobe.models import model_of
 from .regular_pattern import choose_pattern, lobe_solid_angle
 
@@ -66,7 +66,7 @@ def shade_plane(
     name = type(sampler).__name__
     model = model_of(lobe)
     p, area = plane_points(sampler, lobe)
-    frame = local_frame(n, t, omega_o, lobe.rotation)
+    frame = local_frame(n, t, omega_o, rotation_of(lobe))
     slope = p * slopes(lobe)
     light = model.reflect(frame.omega_o[..., None, :], lobe, slope)
     mx, my = slopes(lobe)
@@ -75,7 +75,7 @@ def shade_plane(
     texels = 0.25 * cube.face_texels * cube_stretch(direction) ** 3 * area * stretch
     radiance = sample_cube(cube, direction, level_of_texels(texels, cube.face_texels, sampler.mip_bias))
     share = area * plane_density(p, model.DENSITY)
-    r0, f90 = np.broadcast_to(as_array(lobe.r0), 3), grazing_reflectance(lobe)
+    r0, f90 = normal_reflectance(lobe), grazing_reflectance(lobe)
     w = (share * light.base)[..., None] * (r0 + (f90 - r0) * light.schlick[..., None])
     total: Array = np.sum(w * radiance, axis=-2)
     if name == "Regular" and sampler.normalization == "furnace":

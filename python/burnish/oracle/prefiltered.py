@@ -11,7 +11,7 @@ from .albedo import blend_albedo
 from .arrays import Array, as_array, dot, normalize, reflect
 from .cube_map import PaddedCube, pad_cube, sample_cube, texel_directions, texel_solid_angle
 from .estimator import local_frame
-from .lobe.base import LobeLike, grazing_reflectance, slopes
+from .lobe.base import LobeLike, grazing_reflectance, normal_reflectance, rotation_of, slopes
 from .lobe.models import model_of
 
 #: A level of n texels along an edge is filtered by the lobe of slope LEVEL_SLOPE/n.
@@ -106,13 +106,18 @@ def shade_prefiltered(
     radiance : (..., 3)
     """
     cube = pad_cube(levels)
-    frame = local_frame(n, t, omega_o, lobe.rotation)
+    frame = local_frame(n, t, omega_o, rotation_of(lobe))
     mx, my = slopes(lobe)
-    mirrored = reflect(frame.omega_o, np.array([0.0, 0.0, 1.0]))
-    direction = frame.to_world(mirrored[..., None, :])[..., 0, :]
     model = model_of(lobe)
+    # What lies in the middle of the lobe's plane: of lobes that mirror, the mirrored view.
+    mirrored = reflect(frame.omega_o, np.array([0.0, 0.0, 1.0]))
+    if not model.HAS_HALF_VECTORS:
+        mirrored = model.reflect(frame.omega_o, lobe, np.zeros((*frame.omega_o.shape[:-1], 2))).omega_i
+    direction = frame.to_world(mirrored[..., None, :])[..., 0, :]
     level = prefiltered_level(model.FILTER_SLOPE * np.sqrt(mx * my), int(cube.sizes[0]))
-    albedo = blend_albedo(model.albedo(frame.omega_o, lobe), lobe.r0, grazing_reflectance(lobe))
+    albedo = blend_albedo(
+        model.albedo(frame.omega_o, lobe), normal_reflectance(lobe), grazing_reflectance(lobe)
+    )
     seen = dot(normalize(omega_o), normalize(n))[..., None] > 0
     result: Array = as_array(lobe.weight) * albedo * sample_cube(cube, direction, level)
     return np.where(seen, result, 0.0)

@@ -6,7 +6,7 @@ import numpy.typing as npt
 from .arrays import Array, as_array
 from .cube_map import cube_direction, texel_solid_angle
 from .estimator import local_frame
-from .lobe.base import LobeLike, grazing_reflectance, schlick_fresnel
+from .lobe.base import LobeLike, grazing_reflectance, rotation_of, schlick_fresnel
 from .lobe.models import model_of
 
 LEAST_QUADRATURE_FACE = 64
@@ -54,7 +54,7 @@ def shade_reference(
     """
     faces = subdivide(faces, parts)
     size = faces.shape[1]
-    frame = local_frame(n, t, omega_o, lobe.rotation)
+    frame = local_frame(n, t, omega_o, rotation_of(lobe))
     axes = np.stack([frame.tangent, frame.bitangent, frame.normal], axis=-2).reshape(-1, 3, 3)
     views = frame.omega_o.reshape(-1, 3)
     centers = (2 * np.arange(size) + 1) / size - 1
@@ -75,7 +75,7 @@ def _face_sum(omega_i: Array, omega_o: Array, lobe: LobeLike, energy: Array) -> 
     if len(above) == 0:
         return np.zeros(energy.shape[-1])
     values = model_of(lobe).values(omega_i[:, above], omega_o, lobe)
-    r0, f90 = as_array(lobe.r0), grazing_reflectance(lobe)
+    r0, f90 = as_array(getattr(lobe, "r0", 1.0)), grazing_reflectance(lobe)
     fresnel = schlick_fresnel(values.o_h[:, None], r0, f90 if r0.ndim else f90[:1])
     result: Array = np.sum(values.value[:, None] * fresnel * energy[above[values.near]], axis=0)
     return result

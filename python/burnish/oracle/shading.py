@@ -12,7 +12,7 @@ from .cube_map import PaddedCube, pad_cube
 from .estimator import local_frame, shade_importance, shade_regular
 from .importance import importance_half_vectors
 from .irradiance import DiffuseForm, diffuse_light
-from .lobe.base import grazing_reflectance
+from .lobe.base import grazing_reflectance, normal_reflectance, rotation_of
 from .lobe.models import model_of
 from .matched import MatchedMap, Placement, read_matched, shade_matched
 from .plane import shade_plane
@@ -30,21 +30,23 @@ def energy_scale(normals: Array, tangents: Array, views: Array, lobe: Any, refle
     compensates = getattr(lobe, "compensate", "none") == "scale"
     if not compensates and (not getattr(lobe, "conserve_energy", False) or lobe.alpha == 0.0):
         return np.ones((*normals.shape[:-1], 1))
-    omega_o = local_frame(normals, tangents, views, lobe.rotation).omega_o
+    omega_o = local_frame(normals, tangents, views, rotation_of(lobe)).omega_o
     albedo: Array = model_of(lobe).albedo(omega_o, lobe)[..., :1]
     if not compensates:
         return 1.0 / np.maximum(albedo, 1.0)
-    r = reflectance if reflectance is not None else as_array(lobe.r0) / grazing_reflectance(lobe)
+    r = reflectance if reflectance is not None else normal_reflectance(lobe) / grazing_reflectance(lobe)
     scale: Array = 1 + as_array(r) * (1 / albedo - 1)
     return scale
 
 
 def lobe_through(normals: Array, tangents: Array, views: Array, lobe: Any, share: Any) -> Array:
     """What a layer lets through of light from below, (..., 1): 1 - (a E_1 + b E_s), or 1 - max(E)."""
-    omega_o = local_frame(normals, tangents, views, lobe.rotation).omega_o
+    omega_o = local_frame(normals, tangents, views, rotation_of(lobe)).omega_o
     parts: Array = model_of(lobe).albedo(omega_o, lobe)
     if share is None:
-        reflected = as_array(lobe.weight) * blend_albedo(parts, lobe.r0, grazing_reflectance(lobe))
+        reflected = as_array(lobe.weight) * blend_albedo(
+            parts, normal_reflectance(lobe), grazing_reflectance(lobe)
+        )
         reflected = reflected * energy_scale(normals, tangents, views, lobe)
         taken = np.max(reflected, axis=-1, keepdims=True)
     else:
@@ -92,7 +94,7 @@ def shade_lobe(
 ) -> Array:
     """Radiance of one lobe by the regular pattern or importance sampling, the oracle's or burnish's own."""
     name = type(sampler).__name__
-    if name in ("Regular", "Importance") and model_of(lobe).DENSITY != "gaussian":
+    if name in ("Regular", "Importance") and not model_of(lobe).HAS_FIXED_HALF_VECTORS:
         return shade_plane(cube, n, t, omega_o, lobe, sampler)
     if name == "Regular":
         pattern = choose_pattern(lobe.roughness, sampler.samples, sampler.threshold)

@@ -9,7 +9,7 @@ import numpy.typing as npt
 from .arrays import Array, as_array, dot, normalize
 from .cube_map import texel_directions, texel_solid_angle
 from .estimator import LocalFrame
-from .lobe.base import LobeLike, grazing_reflectance, schlick_fresnel
+from .lobe.base import LobeLike, grazing_reflectance, normal_reflectance, schlick_fresnel
 from .lobe.models import model_of
 
 #: Most suns of a map.
@@ -116,6 +116,9 @@ def shade_small_light(
     omega_o, model = frame.omega_o, model_of(lobe)
     axes = np.stack([frame.tangent, frame.bitangent, frame.normal], axis=-2)
     omega_i = np.einsum("...ij,...j->...i", axes, as_array(direction))
+    if not model.HAS_HALF_VECTORS:
+        value = model.under_light(omega_i, omega_o, lobe, as_array(variance))
+        return np.where((omega_i[..., 2] > 0)[..., None], value[..., None], 0.0) * np.ones(3)
     total = omega_i + omega_o
     length = np.linalg.norm(total, axis=-1, keepdims=True)
     h = total / np.maximum(length, 1e-300)
@@ -126,7 +129,7 @@ def shade_small_light(
     i = np.where(seen[..., None], omega_i, [0.0, 0.0, 1.0])
     density = model.widened_d(h[..., :2] / h[..., 2:], lobe, covariance) / h[..., 2] ** 4
     value = np.where(seen, density * model.rest(i, omega_o, o_h, lobe), 0.0)
-    fresnel = schlick_fresnel(o_h[..., None], as_array(lobe.r0), grazing_reflectance(lobe))
+    fresnel = schlick_fresnel(o_h[..., None], normal_reflectance(lobe), grazing_reflectance(lobe))
     result: Array = value[..., None] * fresnel
     return result
 

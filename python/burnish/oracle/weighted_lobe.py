@@ -14,7 +14,7 @@ import numpy as np
 import numpy.typing as npt
 
 from .arrays import Array, as_array, dot
-from .lobe.base import LobeLike, grazing_reflectance, slopes
+from .lobe.base import LobeLike, grazing_reflectance, normal_reflectance, slopes
 from .lobe.kurt import KurtLobe
 from .lobe.models import model_of
 from .matched_table import half_square, plane_of_view, view_at
@@ -33,7 +33,7 @@ MOMENT_SHARE = 0.8
 
 def grey_specular(lobe: LobeLike) -> float:
     """Reflectance along the normal over all channels, weighed as they are seen: mean(w r0)/mean(w f90)."""
-    weight, r0 = np.broadcast_to(as_array(lobe.weight), 3), np.broadcast_to(as_array(lobe.r0), 3)
+    weight, r0 = np.broadcast_to(as_array(lobe.weight), 3), normal_reflectance(lobe)
     grazing = np.mean(weight * grazing_reflectance(lobe))
     if grazing <= 0:
         return 1.0
@@ -98,7 +98,7 @@ def _drift(roughness: tuple[float, float], alpha: float, specular: float) -> Arr
 def lobe_drift(lobe: Any) -> Array:
     """What the middle of a mixture moves by, a slope (2,), for a unit of o_x and o_y around the normal."""
     mx, my = slopes(lobe)
-    if model_of(lobe).DENSITY == "gaussian":
+    if model_of(lobe).HAS_FIXED_HALF_VECTORS:
         return _drift((mx, my), float(lobe.alpha), grey_specular(lobe))
     views = view_at(_DRIFT_RADIUS * np.eye(2))
     half = views + model_of(lobe).reflect(views, lobe, np.zeros((2, 2))).omega_i

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from burnish import _core
-from burnish.lobes import Lobe, model_of
+from burnish.lobes import Lobe, model_of, width_of
 from burnish.rendering import shade
 from burnish.samplers import Sampler
 from burnish.study.calibration_points import WeightedPoints, points_at_angle
@@ -121,7 +121,7 @@ def band_points(
     They reflect bright parts of the map more often, and weights undo it: of even points a cell under a small
     lamp would have one or two that decide it.
     """
-    width = float(np.sqrt(2.0 * lobe.roughness[0] * lobe.roughness[1]))
+    width = float(np.sqrt(2.0 * np.prod(width_of(lobe))))
     return [points_at_angle(environment, width, rng.uniform(*band, count), count, rng) for band in BANDS]
 
 
@@ -238,7 +238,7 @@ def merge_kinds(cells: Iterable[Cell], kinds: Mapping[str, str]) -> list[Cell]:
 
 def limit(lobe: Lobe) -> float:
     """What the ratios of a lobe's cells are held to."""
-    slopes = np.broadcast_to(np.asarray(lobe.roughness), 2)
+    slopes = np.asarray(width_of(lobe))
     aspect = float(np.max(slopes) / np.min(slopes))
     return next(ratio for largest, ratio in WORST_RATIOS if aspect <= largest)
 

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from burnish import _core
-from burnish.lobes import describe_lobe, grazing_exponent, make_lobe, model_of
+from burnish.lobes import describe_lobe, make_lobe, name_lobe
 
 
 def describe_material(material: _core.Material) -> dict[str, Any]:
@@ -34,10 +34,6 @@ def make_material(description: dict[str, Any]) -> _core.Material:
     return _core.Material(**description | {"lobes": lobes})
 
 
-def _number(value: float) -> str:
-    return f"{value:.4g}"
-
-
 def material_label(material: _core.Material) -> str:
     """Name a material in few words: its own name, or slopes and what is unusual.
 
@@ -46,15 +42,7 @@ def material_label(material: _core.Material) -> str:
     if material.name:
         return material.name
     parts = ["diffuse"] if any(material.diffuse) else []
-    for lobe in material.lobes:
-        slopes = dict.fromkeys(_number(slope) for slope in lobe.roughness)
-        symbol = "m" if model_of(lobe) == "kurt" else model_of(lobe)
-        words = [f"{symbol} {'/'.join(slopes)}"]
-        if any(value != 1.0 for value in lobe.r0):
-            words.append(f"r0 {'/'.join(dict.fromkeys(map(_number, lobe.r0)))}")
-        if grazing_exponent(lobe):
-            words.append(f"alpha {_number(grazing_exponent(lobe))}")
-        parts.append(", ".join(words))
+    parts += [name_lobe(lobe) for lobe in material.lobes]
     return " + ".join(parts) or "black"
 
 

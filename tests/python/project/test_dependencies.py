@@ -50,7 +50,7 @@ def cpp_violations(area, text):
 
 
 def glsl_violations(area, text):
-    """Entry points may include their own folder, lookup, lobe, light, lib and shared; lib knows none of them."""
+    """Entry points may include their own folder, lookup, lobe, light, lib, shared; lib knows none of them."""
     own = {"shared": {"shared"}, "lib": {"lib", "shared"}}
     own |= {name: {name, "lib", "shared"} for name in ("lobe", "light")}
     allowed = own.get(area, {area, "lookup", "lobe", "light", "lib", "shared"})

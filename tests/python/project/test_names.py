@@ -30,6 +30,9 @@ NAMED_OTHERWISE = {
     "ggx_linear_map": ("linear_map", "models are modules in the oracle"),
     "ggx_rest": ("rest", "models are modules in the oracle"),
     "ggx_widened_d": ("widened_d", "models are modules in the oracle"),
+    "lafortune_value": ("lafortune_brdf", "times the cosine, without the weight"),
+    "lafortune_under_light": ("under_light", "models are modules in the oracle"),
+    "lafortune_linear_map": ("linear_map", "models are modules in the oracle"),
     "kurt_widened_d": ("widened_d", "models are modules in the oracle"),
     "widened_form": ("quadratic_form", "the oracle's has the sum of both covariances"),
     "irradiance_over_pi": ("irradiance", "the shader's coefficients have 1/pi in them"),
@@ -40,9 +43,20 @@ NAMED_OTHERWISE = {
 # Functions without a twin: why none is needed.
 WITHOUT_TWIN = {
     f"lobe_{name}": "the switch between models, which are modules in the oracle"
-    for name in ("d", "rest", "sample", "pdf", "linear_map", "widened_d", "filter_slope")
+    for name in (
+        *("d", "rest", "value", "pdf", "linear_map", "widened_d", "under_light", "axis", "filter_slope"),
+        *("albedo_width", "albedo_gain"),
+    )
 } | {
-    "has_fixed_half_vectors": "the oracle places any pattern in a plane",
+    "has_half_vectors": "a constant of the oracle's modules",
+    "has_fixed_half_vectors": "a constant of the oracle's modules",
+    "has_tail": "the oracle's modules name their density",
+    "cosine_power": "float64 needs no other form than the power",
+    "lafortune_pdf": "the oracle draws by places of the plane",
+    "lafortune_axes": "the oracle's is private",
+    "sheen_d": "a line of the oracle's value",
+    "sheen_curve": "the oracle's is private",
+    "sheen_half_vector": "the oracle's arrays are normalised in place",
 }
 
 

@@ -7,22 +7,34 @@ from burnish.oracle.albedo import blend_albedo
 from burnish.oracle.arrays import dot, normalize
 from burnish.oracle.cube_map import pad_cube, texel_directions
 from burnish.oracle.estimator import Importance, Regular, local_frame
-from burnish.oracle.lobe.base import grazing_reflectance
+from burnish.oracle.lobe.base import grazing_reflectance, normal_reflectance
+from burnish.oracle.lobe.base import slopes as slopes_of
 from burnish.oracle.lobe.ggx import GgxLobe, ggx_brdf, ggx_d, ggx_pdf_omega_i, ggx_sample
 from burnish.oracle.lobe.kurt import KurtLobe, kurt_brdf
+from burnish.oracle.lobe.lafortune import LafortuneLobe, lafortune_brdf
 from burnish.oracle.lobe.models import model_of
+from burnish.oracle.lobe.sheen import SheenLobe, sheen_brdf
 from burnish.oracle.plane import plane_density, plane_points, shade_plane
 from burnish.oracle.pyramid import build_pyramid
 from burnish.oracle.reference import shade_reference
 from burnish.oracle.sun_split import Sun, shade_suns
 
-BRDF = {"KurtLobe": kurt_brdf, "GgxLobe": ggx_brdf}
+BRDF = {
+    "KurtLobe": kurt_brdf,
+    "GgxLobe": ggx_brdf,
+    "LafortuneLobe": lafortune_brdf,
+    "SheenLobe": sheen_brdf,
+}
 LOBES = {
     "Kurt, narrow": KurtLobe(0.1),
     "Kurt, brushed dielectric": KurtLobe((0.4, 0.1), 0.04, 0.5),
     "GGX, narrow": GgxLobe(0.1),
     "GGX, wide": GgxLobe(0.8, (0.9, 0.5, 0.04)),
     "GGX, brushed dielectric": GgxLobe((0.4, 0.1), 0.04, 0.5),
+    "Phong": LafortuneLobe(exponent=40.0),
+    "Lafortune, back": LafortuneLobe((0.9, 0.9, 0.7), 3.0),
+    "Lafortune, brushed": LafortuneLobe((-1.1, -0.4, 0.8), 12.0),
+    "sheen": SheenLobe(0.5),
 }
 
 
@@ -54,7 +66,7 @@ def differences(lobe, views, slopes, step=1e-6):
 @pytest.mark.parametrize("name", LOBES)
 def test_stretch_is_the_area_that_directions_cover(name, views, places):
     lobe = LOBES[name]
-    slopes = places * np.broadcast_to(lobe.roughness, 2)
+    slopes = places * slopes_of(lobe)
     change = differences(lobe, views, slopes)
     area = np.linalg.norm(np.cross(change[..., 0], change[..., 1]), axis=-1)
     stretch = model_of(lobe).stretch(views, lobe, slopes, slopes)
@@ -78,13 +90,15 @@ def test_linear_map_is_the_derivative_of_the_direction(name, views):
 def test_a_plane_has_the_reflectance(name, views, places):
     """base K is f cos_i times the stretch, Fresnel apart."""
     lobe, model = LOBES[name], model_of(LOBES[name])
-    slopes = places * np.broadcast_to(lobe.roughness, 2)
+    slopes = places * slopes_of(lobe)
     light = model.reflect(views, lobe, slopes)
     lit = light.base > 0
     fresnel = blend_albedo(
-        np.stack([np.ones_like(light.schlick), light.schlick], -1), lobe.r0, grazing_reflectance(lobe)
+        np.stack([np.ones_like(light.schlick), light.schlick], -1),
+        normal_reflectance(lobe),
+        grazing_reflectance(lobe),
     )
-    stretch = model.stretch(views, lobe, slopes, slopes) * np.prod(np.broadcast_to(lobe.roughness, 2))
+    stretch = model.stretch(views, lobe, slopes, slopes) * np.prod(slopes_of(lobe))
     value = (light.base * plane_density(places, model.DENSITY))[..., None] * fresnel
     brdf = BRDF[type(lobe).__name__](light.omega_i, views, lobe) * (
         light.omega_i[..., 2:] * stretch[..., None]
@@ -101,7 +115,7 @@ def test_values_are_the_reflectance(name, views, rng):
         values = model_of(lobe).values(directions.T, view, lobe)
         fresnel = blend_albedo(
             np.stack([np.ones_like(values.o_h), (1 - values.o_h) ** 5], -1),
-            lobe.r0,
+            normal_reflectance(lobe),
             grazing_reflectance(lobe),
         )
         near = directions[values.near]
@@ -116,7 +130,9 @@ def test_the_albedo_is_the_light_that_a_white_map_gives(name, views):
     t = np.broadcast_to([1.0, 0.0, 0.0], views.shape)
     steep = views[:, 2] > 0.2
     truth = shade_reference(np.ones((6, 256, 256, 3)), n[steep], t[steep], views[steep], lobe)
-    albedo = blend_albedo(model_of(lobe).albedo(views[steep], lobe), lobe.r0, grazing_reflectance(lobe))
+    albedo = blend_albedo(
+        model_of(lobe).albedo(views[steep], lobe), normal_reflectance(lobe), grazing_reflectance(lobe)
+    )
     np.testing.assert_allclose(truth, albedo, rtol=2e-3)
 
 
@@ -229,3 +245,44 @@ def test_a_lobe_under_a_sun_is_that_of_many_points_of_it(name, views, rng):
         truth = np.mean(BRDF[type(lobe).__name__](points, view, lobe) * np.maximum(points[:, 2:], 0), axis=0)
         got = shade_suns([Sun(middle, np.ones(3), spread**2)], frame, lobe)[0]
         np.testing.assert_allclose(got, truth, rtol=0.15)
+
+
+# H(c, n), the mean of the cosine over a power lobe whose axis has the cosine c (+-2e-6).
+LAFORTUNE_COSINES = np.array([-0.3, 0.0, 0.1, 0.3, 0.7, 1.0])
+LAFORTUNE_GOLDEN = {
+    0.5: (0.144036, 0.228828, 0.259401, 0.324036, 0.468972, 0.6),
+    1: (0.121830, 0.212207, 0.246602, 0.321830, 0.500060, 0.666667),
+    10: (0.023164, 0.112793, 0.164229, 0.298164, 0.641947, 0.916667),
+    100: (0.000028, 0.039405, 0.107150, 0.297087, 0.693137, 0.990196),
+}
+
+
+@pytest.mark.parametrize("exponent", LAFORTUNE_GOLDEN)
+def test_lafortune_albedo_has_the_golden_values(exponent):
+    """Of c = (1, 1, 1) the axis is the view; one below the horizon is that of c = (1, 1, -1)."""
+    for cosine, golden in zip(LAFORTUNE_COSINES, LAFORTUNE_GOLDEN[exponent], strict=True):
+        lobe = LafortuneLobe((1.0, 1.0, np.sign(cosine) or 1.0), exponent)
+        view = views_at(np.abs(np.array([cosine])))
+        got = model_of(lobe).albedo(view, lobe)[0, 0] * (exponent + 1) / (2 * np.pi)
+        assert got == pytest.approx(golden, abs=4e-6)
+
+
+SHEEN_GOLDEN = {
+    0.07: (0.733510, 0.545766, 0.197578, 0.067878, 0.018416, 0.000257),
+    0.3: (0.693220, 0.583653, 0.344337, 0.210523, 0.124610, 0.039083),
+    1: (0.827248, 0.720510, 0.490911, 0.356289, 0.264321, 0.163764),
+}
+
+
+@pytest.mark.parametrize("alpha", SHEEN_GOLDEN)
+def test_sheen_albedo_has_the_golden_values(alpha):
+    lobe = SheenLobe(alpha**0.5)
+    albedo = model_of(lobe).albedo(views_at(np.array([0.05, 0.1, 0.3, 0.5, 0.7, 1.0])), lobe)[:, 0]
+    np.testing.assert_allclose(albedo, SHEEN_GOLDEN[alpha], rtol=1e-3, atol=1e-5)
+
+
+def test_lafortune_and_sheen_are_reciprocal(views, rng):
+    other = views[rng.permutation(len(views))]
+    for lobe in (LafortuneLobe((-1.1, -0.4, 0.8), 12.0), SheenLobe(0.4)):
+        brdf = BRDF[type(lobe).__name__]
+        np.testing.assert_allclose(brdf(other, views, lobe), brdf(views, other, lobe), rtol=1e-9)

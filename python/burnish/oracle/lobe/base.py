@@ -1,5 +1,6 @@
 """What the oracle asks of every model of lobe, and what models share."""
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any, Protocol
 
@@ -52,10 +53,28 @@ class Values:
     o_h: Array
 
 
-def slopes(lobe: LobeLike) -> tuple[float, float]:
-    """Roughness along tangent and bitangent."""
-    mx, my = np.broadcast_to(as_array(lobe.roughness), 2)
+#: Width of a lobe's plane, as a slope of half-vectors, of models that have no roughness for it.
+WIDTHS: dict[str, Callable[[Any], float]] = {
+    "LafortuneLobe": lambda lobe: 0.5 * float(np.sqrt(2 / (lobe.exponent + 1))),
+    "SheenLobe": lambda lobe: 0.5,
+}
+
+
+def slopes(lobe: Any) -> tuple[float, float]:
+    """Widths along tangent and bitangent, as slopes of half-vectors: of most models their roughness."""
+    width = WIDTHS.get(type(lobe).__name__)
+    mx, my = np.broadcast_to(as_array(width(lobe) if width else lobe.roughness), 2)
     return float(mx), float(my)
+
+
+def normal_reflectance(lobe: Any) -> Array:
+    """Reflectance (3,) along the normal, 1 of models without."""
+    return np.broadcast_to(as_array(getattr(lobe, "r0", 1.0)), 3)
+
+
+def rotation_of(lobe: Any) -> float:
+    """Radians that the tangent turns by, 0 of models without."""
+    return float(getattr(lobe, "rotation", 0.0))
 
 
 def quadratic_form(covariance: Array, slope: Array) -> tuple[Array, Array]:

@@ -17,6 +17,12 @@ from .base import MIN_COS_O, Reflected, Values, grazing_reflectance, quadratic_f
 
 #: Of the lobe in its plane: (1 + |x|^2)^-2/pi.
 DENSITY = "student"
+#: Half-vectors say all of it: they have a density D.
+HAS_HALF_VECTORS = True
+#: Half-vectors depend on the view.
+HAS_FIXED_HALF_VECTORS = False
+#: Samples are placed once for every view.
+HAS_VIEW_TABLES = True
 #: Slope of Kurt's lobe, by which prefiltered maps are made, that serves it best, over alpha.
 FILTER_SLOPE = 1.1
 # Least height of a normal of the stretched hemisphere: its half-vector has a slope.

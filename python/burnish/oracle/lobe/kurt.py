@@ -13,6 +13,12 @@ from .base import MIN_COS_O, MIN_X1, Reflected, Values, quadratic_form, schlick_
 
 #: Of the lobe in the plane of slopes: exp(-|p|^2)/pi, p in units of roughness.
 DENSITY = "gaussian"
+#: Half-vectors say all of it: they have a density D.
+HAS_HALF_VECTORS = True
+#: Half-vectors are the same for every view.
+HAS_FIXED_HALF_VECTORS = True
+#: Samples are placed once for every view.
+HAS_VIEW_TABLES = True
 #: Slope of the lobe that prefiltered levels show it by, over its own.
 FILTER_SLOPE = 1.0
 # Past this exponent q is 0 for every purpose, and exp would leave float64's normal range.

@@ -3,9 +3,14 @@
 from types import ModuleType
 from typing import Any
 
-from . import ggx, kurt
+from . import ggx, kurt, lafortune, sheen
 
-MODELS: dict[str, ModuleType] = {"KurtLobe": kurt, "GgxLobe": ggx}
+MODELS: dict[str, ModuleType] = {
+    "KurtLobe": kurt,
+    "GgxLobe": ggx,
+    "LafortuneLobe": lafortune,
+    "SheenLobe": sheen,
+}
 
 
 def model_of(lobe: Any) -> ModuleType:
