@@ -204,7 +204,8 @@ void bind_sheen_lobe(py::module_& m) {
     py::class_<SheenLobe>(m, "SheenLobe", R"(The glow of cloth toward grazing. It does not change once made.
 
 f = weight D V of KHR_materials_sheen (Estevez and Kulla 2017): D = (2 + 1/a) sin_h^(1/a)/(2 pi), a = roughness^2
-but at least .001, and the fitted V. Last among layered lobes it lies over the others, which get what it leaves.
+but at least .001, and the fitted V; divided by its albedo where that exceeds 1, which the fit does where smooth
+cloth grazes. Last among layered lobes it lies over the others, which get what it leaves.
 
 Parameters
 ----------

@@ -21,10 +21,10 @@ Material make_material(const Color& diffuse, std::vector<Lobe> lobes, const Colo
 }
 
 Material make_metallic_roughness(const Color& base_color, float metallic, float roughness, float clearcoat,
-                                 float clearcoat_roughness, float anisotropy, float anisotropy_rotation,
-                                 float ior, float specular, const Color& specular_color,
-                                 const Color& emissive, const std::string& model, std::string name,
-                                 bool double_sided) {
+                                 float clearcoat_roughness, const Color& sheen, float sheen_roughness,
+                                 float anisotropy, float anisotropy_rotation, float ior, float specular,
+                                 const Color& specular_color, const Color& emissive, const std::string& model,
+                                 std::string name, bool double_sided) {
     Material material;
     MetallicRoughness& source = material.source.emplace();
     source.model = material_model_of(model);
@@ -38,6 +38,8 @@ Material make_metallic_roughness(const Color& base_color, float metallic, float 
     source.anisotropy_rotation = anisotropy_rotation;
     source.clearcoat = clearcoat;
     source.clearcoat_roughness = clearcoat_roughness;
+    source.sheen_color = vec3_of(sheen);
+    source.sheen_roughness = sheen_roughness;
     material.emissive = vec3_of(emissive);
     material.name = std::move(name);
     material.double_sided = double_sided;
@@ -107,7 +109,7 @@ Parameters
 ----------
 diffuse : float or (float, float, float)
     Diffuse reflectance, in 0..1.
-lobes : list of KurtLobe or GgxLobe
+lobes : list of KurtLobe, GgxLobe, LafortuneLobe or SheenLobe
     At most four. One that reflects nothing is left out.
 emissive : float or (float, float, float)
     Radiance given off, >= 0.
@@ -129,7 +131,8 @@ ValueError
              py::arg("double_sided") = false, py::arg("layered") = false)
         .def_static("metallic_roughness", &make_metallic_roughness, py::arg("base_color") = Color(1.0f),
                     py::arg("metallic") = 0.0f, py::arg("roughness") = 0.5f, py::arg("clearcoat") = 0.0f,
-                    py::arg("clearcoat_roughness") = 0.0f, py::arg("anisotropy") = 0.0f,
+                    py::arg("clearcoat_roughness") = 0.0f, py::arg("sheen") = Color(0.0f),
+                    py::arg("sheen_roughness") = 0.0f, py::arg("anisotropy") = 0.0f,
                     py::arg("anisotropy_rotation") = 0.0f, py::arg("ior") = 1.5f, py::arg("specular") = 1.0f,
                     py::arg("specular_color") = Color(1.0f), py::arg("emissive") = Color(0.0f),
                     py::arg("model") = "ggx", py::arg("name") = "", py::arg("double_sided") = false,
@@ -145,8 +148,10 @@ Parameters
 ----------
 base_color : float or (float, float, float)
     Linear, in 0..1.
-metallic, roughness, clearcoat, clearcoat_roughness, anisotropy, specular : float
+metallic, roughness, clearcoat, clearcoat_roughness, sheen_roughness, anisotropy, specular : float
     In 0..1; roughness is perceptual.
+sheen : float or (float, float, float)
+    Colour of the glow of cloth, in 0..1, between base and coat; "kurt" has none.
 anisotropy_rotation : float
     Radians, counter-clockwise from the tangent.
 ior : float

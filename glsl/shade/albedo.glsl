@@ -72,6 +72,8 @@ vec2 brushed_albedo(uint begin, vec2 roughness, vec3 local_o) {
 
 // (E1, Es) at the view `local_o` of the lobe of `record`.
 vec2 lobe_albedo(LobeRecord record, vec2 roughness, vec3 local_o) {
+    if (HAS_VARYING && HAS_FIXED_LOBE && record.albedo_width_nodes == 0u)
+        return albedo_row(record.albedo_begin, local_o.z);
     if (HAS_VARYING && HAS_TANGENT && record.albedo_width_nodes > 1u)
         return brushed_albedo(record.albedo_begin, roughness, local_o);
     if (HAS_VARYING) return varying_albedo(record.albedo_begin, roughness.x, local_o.z);

@@ -19,6 +19,7 @@ layout(constant_id = SPEC_HAS_EMISSIVE) const bool HAS_EMISSIVE = false;
 layout(constant_id = SPEC_HAS_VARYING) const bool HAS_VARYING = false;
 layout(constant_id = SPEC_HAS_COAT) const bool HAS_COAT = false;
 layout(constant_id = SPEC_HAS_COAT_NORMAL) const bool HAS_COAT_NORMAL = false;
+layout(constant_id = SPEC_HAS_FIXED_LOBE) const bool HAS_FIXED_LOBE = false;
 layout(constant_id = SPEC_HAS_MAP_ROTATION) const bool HAS_MAP_ROTATION = false;
 layout(constant_id = SPEC_HAS_LIGHTS) const bool HAS_LIGHTS = false;
 layout(constant_id = SPEC_SHADE_CLASS) const uint SHADE_CLASS = 0u;

@@ -120,10 +120,15 @@ vec3 point_emissive(PointToShade point) {
 // nothing, the coat is both.
 bool is_coat(uint which) { return HAS_VARYING && HAS_COAT && which + 1u == LOBE_COUNT; }
 
+// Between the two, one may be the same all over the surface.
+bool is_fixed(uint which) {
+    return HAS_VARYING && HAS_FIXED_LOBE && which + (HAS_COAT ? 2u : 1u) == LOBE_COUNT;
+}
+
 // Lobe `which` of the point.
 SurfaceLobe point_lobe(PointToShade point, uint lobe_index, uint which) {
     SurfaceLobe lobe;
-    if (HAS_VARYING && !is_coat(which)) {
+    if (HAS_VARYING && !is_coat(which) && !is_fixed(which)) {
         vec4 specular = imageLoad(varying_specular, point.pixel);
         lobe.specular = specular.rgb;
         lobe.grazing = vec3(imageLoad(varying_emissive, point.pixel).a) - specular.rgb;

@@ -20,15 +20,16 @@ struct LobeRecord {
     float alpha;   // grazing exponent, 0..1, of Kurt's
     float rotation_cos;
     float rotation_sin;
-    uint table_begin;        // first entry of its sample table
-    uint table_count;        // samples
-    uint albedo_begin;       // first entry of its albedo table
-    uint albedo_width_nodes; // of a fixed roughness; 1 = round
-    float threshold_log;     // -ln xi0, for scaled tables of the regular pattern
-    uint energy;             // ENERGY_...
-    float level_share;       // of matched lookups: what a variance of 1 is of level 1's, face_texels / (16
-                             // SPHERICAL_VARIANCE)
-    uint view_columns;       // of a table by view: 1 = isotropic
+    uint table_begin;  // first entry of its sample table
+    uint table_count;  // samples
+    uint albedo_begin; // first entry of its albedo table
+    uint
+        albedo_width_nodes; // of a fixed roughness; 1 = round; 0: of one that no texture varies beside others
+    float threshold_log;    // -ln xi0, for scaled tables of the regular pattern
+    uint energy;            // ENERGY_...
+    float level_share;      // of matched lookups: what a variance of 1 is of level 1's, face_texels / (16
+                            // SPHERICAL_VARIANCE)
+    uint view_columns;      // of a table by view: 1 = isotropic
     uint view_drift; // of a table by view, two halves: what slopes move by for a unit of the view along and
                      // across
     vec4 cover;      // of layers, see Cover (scene/material.h). xy: what it takes from what lies below, x E1
@@ -67,8 +68,8 @@ SHARED_SIZE(MapRecord, 16 * MAP_ROWS)
 // One direct light. Places are relative to the origin of positions: the eye, or the middle of a list of
 // points.
 struct LightRecord {
-    vec4 place; // xyz: where it is, or, of directional ones, where it comes from, unit; w: radius, or the
-                // sine of half the angle that it is seen under
+    vec4 place;     // xyz: where it is, or, of directional ones, where it comes from, unit; w: radius, or the
+                    // sine of half the angle that it is seen under
     vec4 intensity; // rgb: W/sr, or, of directional ones, irradiance; w: 1/range^2, 0: no end
     vec4 axis;      // xyz: where a spot shines, unit; w: 1: directional
     vec4 cone; // xy: scale and offset of a spot's edge by the cosine; zw: cosine and sine of the outer angle,

@@ -64,6 +64,8 @@ class Material:
         roughness: float = 0.5,
         clearcoat: float = 0.0,
         clearcoat_roughness: float = 0.0,
+        sheen: _Color = 0.0,
+        sheen_roughness: float = 0.0,
         anisotropy: float = 0.0,
         anisotropy_rotation: float = 0.0,
         ior: float = 1.5,

@@ -84,11 +84,15 @@ LobeFacts facts(const SheenLobe& lobe) {
     LobeFacts facts;
     const float alpha = std::max(lobe.roughness * lobe.roughness, MIN_SHEEN_ALPHA);
     facts.shape = {.model = &SHEEN, .width_x = WIDTH, .width_y = WIDTH, .own = {alpha, 0.0f, 0.0f, 0.0f}};
+    facts.scales_energy = true;
     return facts;
 }
 
 shared::LobeRecord record(const SheenLobe& lobe) {
-    return make_record(facts(lobe).shape, lobe.weight, glm::vec3(1.0f), glm::vec3(1.0f), 0.0f);
+    shared::LobeRecord record =
+        make_record(facts(lobe).shape, lobe.weight, glm::vec3(1.0f), glm::vec3(1.0f), 0.0f);
+    record.energy = shared::ENERGY_CONSERVED;
+    return record;
 }
 
 } // namespace burnish

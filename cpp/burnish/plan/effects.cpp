@@ -50,6 +50,8 @@ uint32_t on_of_lobes(uint32_t value, const Variant& variant) {
 }
 
 uint32_t shared_coat(uint32_t value, const Variant& variant) {
+    // Lobes of such a material are told apart by their number.
+    if (variant[shared::SPEC_HAS_FIXED_LOBE]) return value;
     return variant[shared::SPEC_HAS_VARYING] && variant[shared::SPEC_LOBE_COUNT] > 1 ? 1 : value;
 }
 
@@ -77,6 +79,8 @@ constexpr std::array EFFECTS = {
            [](uint32_t value, const Variant& all) {
                return has_lobes(all) ? shared_coat(all[shared::SPEC_HAS_COAT], all) : value;
            }},
+    Effect{shared::SPEC_HAS_FIXED_LOBE, "lobe without textures", nullptr, true, true,
+           [](const Subject& one) { return uint32_t(has_fixed_lobe(one.material)); }, nullptr},
     Effect{shared::SPEC_HAS_DIFFUSE, "diffuse", "every diffuse reflectance is 0", false, true,
            [](const Subject& one) { return uint32_t(has_diffuse(one.material)); }, on},
     Effect{shared::SPEC_HAS_EMISSIVE, "emissive", "no material emits", false, true,

@@ -51,6 +51,11 @@ bool has_coat_normal(const Material& material) {
                                   has_texture(material, &MetallicRoughness::clearcoat_normal_texture));
 }
 
+bool has_fixed_lobe(const Material& material) {
+    return is_varying(material) && material.source->model == MaterialModel::ggx &&
+           material.source->sheen_color != glm::vec3(0.0f);
+}
+
 bool has_layers(const Material& material) {
     if (material.covers.empty()) return false;
     return material.lobes.size() > 1 || has_diffuse(material) ||

@@ -16,6 +16,8 @@ bool has_emissive(const Material& material);
 bool has_coat(const Material& material);
 /// The coat's normal is not the base's: that has a normal map, or the coat has one.
 bool has_coat_normal(const Material& material);
+/// Of a textured material a lobe is the same all over the surface: the last but the coat.
+bool has_fixed_lobe(const Material& material);
 /// A lobe takes light from something that lies below it.
 bool has_layers(const Material& material);
 /// A lobe reflects differently along tangent and bitangent.

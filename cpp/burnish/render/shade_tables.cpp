@@ -20,6 +20,12 @@ bool is_coat(uint32_t which, const ShadeClass& one) {
     return one.variant[shared::SPEC_HAS_COAT] && which + 1 == one.variant[shared::SPEC_LOBE_COUNT];
 }
 
+/// The one that no texture varies.
+bool is_fixed(uint32_t which, const ShadeClass& one) {
+    const uint32_t above = one.variant[shared::SPEC_HAS_COAT] ? 2 : 1;
+    return one.variant[shared::SPEC_HAS_FIXED_LOBE] && which + above == one.variant[shared::SPEC_LOBE_COUNT];
+}
+
 /// The coat's weight is read from its texture, so the record holds the lobe of weight one.
 Lobe lobe_of(const Material& material, uint32_t which, const ShadeClass& one) {
     if (which >= material.lobes.size()) return with_weight(Lobe(), glm::vec3(0.0f));
@@ -153,11 +159,11 @@ ShadeTables make_shade_tables(const vulkan::DevicePointer& device, const Scene& 
             if (plan.sampler.needs_albedo || one.variant[shared::SPEC_CONSERVES_ENERGY] ||
                 one.variant[shared::SPEC_HAS_LAYERS]) {
                 const bool is_varying_brushed = is_brushed(material) && !is_coat(which, one);
-                const auto albedo = one.variant[shared::SPEC_HAS_VARYING]
-                                        ? writer.varying_albedo(is_varying_brushed, lobe.shape)
-                                        : writer.albedo(lobe.shape);
+                const bool is_varying = one.variant[shared::SPEC_HAS_VARYING] && !is_fixed(which, one);
+                const auto albedo = is_varying ? writer.varying_albedo(is_varying_brushed, lobe.shape)
+                                               : writer.albedo(lobe.shape);
                 record.albedo_begin = albedo.begin;
-                record.albedo_width_nodes = albedo.count;
+                record.albedo_width_nodes = is_fixed(which, one) ? 0 : albedo.count;
             }
             record.cover = cover_of(material, which);
             record.threshold_log = plan.sampler.threshold_log;

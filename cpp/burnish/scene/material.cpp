@@ -18,6 +18,8 @@ void validate(const MetallicRoughness& source) {
     require_range("source.anisotropy", source.anisotropy, 0.0f, 1.0f);
     require_range("source.clearcoat", source.clearcoat, 0.0f, 1.0f);
     require_range("source.clearcoat_roughness", source.clearcoat_roughness, 0.0f, 1.0f);
+    require_unit("source.sheen_color", source.sheen_color);
+    require_range("source.sheen_roughness", source.sheen_roughness, 0.0f, 1.0f);
     require_range("source.occlusion_strength", source.occlusion_strength, 0.0f, 1.0f);
     if (!std::isfinite(source.anisotropy_rotation) || !std::isfinite(source.normal_scale) ||
         !std::isfinite(source.clearcoat_normal_scale))

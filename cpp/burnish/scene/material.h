@@ -36,6 +36,8 @@ struct MetallicRoughness {
     float anisotropy_rotation = 0.0f; ///< radians
     float clearcoat = 0.0f;           ///< KHR_materials_clearcoat
     float clearcoat_roughness = 0.0f; ///< perceptual
+    glm::vec3 sheen_color{0.0f};      ///< KHR_materials_sheen, in [0, 1]
+    float sheen_roughness = 0.0f;     ///< perceptual
     float normal_scale = 1.0f;
     float clearcoat_normal_scale = 1.0f;
     float occlusion_strength = 1.0f;
@@ -96,7 +98,7 @@ void make_layers(Material& material);
 ///   m = max(roughness^2, MIN_ROUGHNESS), f0 = min(((ior-1)/(ior+1))^2 specular_color, 1); base lobe:
 ///   mix(specular f0, base, metallic) along the normal, white at grazing scaled by mix(specular, 1,
 ///   metallic); anisotropy: m_x = mix(m, 1, strength^2), m_y = m; clearcoat: a lobe of r0 .04 and weight =
-///   factor on top.
+///   factor on top. Sheen, of ggx alone, between the two.
 ///   ggx: alpha = m; layered, diffuse = base (1 - metallic), below the dielectric's part of the base lobe.
 ///   kurt: slopes m, alpha = 0.5, conserve_energy; diffuse = base (1 - metallic) (1 - max(specular f0)).
 void map_metallic_roughness(Material& material);

@@ -73,6 +73,8 @@ void map_metallic_roughness(Material& material) {
                 GgxLobe{.roughness = roughness, .r0 = r0, .weight = glm::vec3(weight), .rotation = rotation});
     };
     if (base.weight > 0.0f) add(base.roughness, base.r0, base.weight, source.anisotropy_rotation);
+    if (!is_kurt && source.sheen_color != glm::vec3(0.0f))
+        material.lobes.push_back(SheenLobe{source.sheen_roughness, source.sheen_color});
     if (source.clearcoat > 0.0f)
         add(glm::vec2(slope_of_roughness(source.clearcoat_roughness)), glm::vec3(CLEARCOAT_R0),
             source.clearcoat, 0.0f);

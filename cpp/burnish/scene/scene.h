@@ -7,8 +7,8 @@
 
 #include <glm/glm.hpp>
 
-#include "burnish/light/environment.h"
 #include "burnish/light/direct_light.h"
+#include "burnish/light/environment.h"
 #include "burnish/scene/camera.h"
 #include "burnish/scene/material.h"
 #include "burnish/scene/mesh.h"

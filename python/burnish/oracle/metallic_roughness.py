@@ -6,9 +6,9 @@ from typing import Any, Literal
 import numpy as np
 
 from .arrays import Array, as_array
-from .lobe.base import LobeLike
 from .lobe.ggx import GgxLobe
 from .lobe.kurt import KurtLobe
+from .lobe.sheen import SheenLobe
 
 #: Smallest slope, or alpha, of a lobe.
 MIN_ROUGHNESS = 1e-3
@@ -25,7 +25,7 @@ class Material:
     """Diffuse reflectance, lobes and emitted radiance; without covers all parts add up."""
 
     diffuse: Any = 0.0
-    lobes: list[LobeLike] = field(default_factory=list)
+    lobes: list[Any] = field(default_factory=list)
     emissive: Any = 0.0
     double_sided: bool = False
     covers: tuple[Cover, ...] | None = None
@@ -33,7 +33,9 @@ class Material:
 
 @dataclass(frozen=True)
 class MetallicRoughness:
-    """Factors of glTF and its extensions for specular, index of refraction, anisotropy and clearcoat."""
+    """Factors of glTF and its extensions for specular, index of refraction, anisotropy, clearcoat and
+    sheen.
+    """
 
     base_color: Any = 1.0
     metallic: float = 1.0
@@ -45,6 +47,8 @@ class MetallicRoughness:
     anisotropy_rotation: float = 0.0
     clearcoat: float = 0.0
     clearcoat_roughness: float = 0.0
+    sheen_color: Any = 0.0
+    sheen_roughness: float = 0.0  # perceptual
 
 
 def _mix(a: Any, b: Any, share: float) -> Array:
@@ -60,14 +64,15 @@ def map_metallic_roughness(
     mix(f0, base, metallic) along the normal and mix(specular, 1, metallic) along the surface, none where that
     is 0. Anisotropy: m_x = mix(m, 1, strength^2). Clearcoat: one more lobe of r0 .04 and weight = factor.
     "ggx": alpha = m, diffuse = base (1 - metallic), in layers: the base lobe lies over the diffuse part with
-    its dielectric share, of the channel with the largest f0; the coat over all, emission too.
+    its dielectric share, of the channel with the largest f0; sheen over both, the coat over all, emission
+    below all but the base.
     "kurt": slopes m, alpha = .5, lobes conserve energy and add up; diffuse = base (1 - metallic)
     (1 - max(f0)).
     """
     base = np.broadcast_to(as_array(source.base_color), 3)
     color = np.broadcast_to(as_array(source.specular_color), 3)
     f0 = np.minimum(((source.ior - 1) / (source.ior + 1)) ** 2 * color, 1.0) * source.specular
-    lobes: list[LobeLike] = []
+    lobes: list[Any] = []
     covers: list[Cover] = []
 
     def add(roughness: tuple[float, float], r0: Any, weight: float, rotation: float) -> None:
@@ -84,6 +89,9 @@ def map_metallic_roughness(
         r0 = np.clip(_mix(f0, base, source.metallic) / weight, 0.0, 1.0)
         add((mx, m), r0, weight, source.anisotropy_rotation)
         covers.append(((most, source.specular - most), False))
+    if model != "kurt" and np.any(as_array(source.sheen_color) > 0):
+        lobes.append(SheenLobe(source.sheen_roughness, source.sheen_color))
+        covers.append((None, True))
     if source.clearcoat > 0:
         m = max(source.clearcoat_roughness**2, MIN_ROUGHNESS)
         add((m, m), CLEARCOAT_R0, source.clearcoat, 0.0)

@@ -1,4 +1,4 @@
-"""Lafortune's lobe: shader against oracle from a uniform one to a mirror, for the published directions and others."""
+"""Lafortune's lobe: shader against oracle from a uniform one to a mirror, around several directions."""
 
 import numpy as np
 import pytest

@@ -38,6 +38,25 @@ def test_white_furnace_never_gives_more_than_it_gets(device, uniform, sampler, m
                 np.testing.assert_allclose(got, 1.0, atol=1e-4 + lookup_error(device, 1.0))
 
 
+@pytest.mark.parametrize(
+    "sampler", [burnish.Matched(5), burnish.Regular(14), burnish.Prefiltered()], ids=repr
+)
+@pytest.mark.parametrize("clearcoat", [0.0, 1.0])
+def test_white_cloth_never_gives_more_than_it_gets(device, uniform, sampler, clearcoat):
+    """The published sheen of .1 alone gives back 1.6 of a grazing view's light."""
+    views = views_about_z(FROM_ABOVE_TO_GRAZING, np.array([0.3]))
+    for sheen_roughness in (0.1, 0.3, 0.6, 1.0):
+        for metallic in (0.0, 1.0):
+            material = burnish.Material.metallic_roughness(
+                1.0, metallic, 0.5, clearcoat, sheen=1.0, sheen_roughness=sheen_roughness
+            )
+            assert len(material.lobes) == 2 + (clearcoat > 0)
+            got = burnish.shade(uniform, material, sampler, *views, device=device)
+            assert got.max() <= 1.01 + lookup_error(device, 1.0)
+            if metallic == 0 and clearcoat == 0 and type(sampler) is burnish.Matched:
+                assert got.min() >= 1.0 - 1e-3 - lookup_error(device, 1.0)
+
+
 @pytest.fixture(scope="module")
 def points():
     return random_points(np.random.default_rng(77), 120)
@@ -69,20 +88,24 @@ MAPPED = {"base_color": (0.8, 0.5, 0.2), "metallic": 0.3, "roughness": 0.6, "cle
     ],
     ids=repr,
 )
-@pytest.mark.parametrize("material", ["by hand", "glTF's numbers", "glTF's numbers by Kurt"])
+@pytest.mark.parametrize("material", ["by hand", "glTF's numbers", "glTF's numbers by Kurt", "glTF's cloth"])
 def test_layers_equal_the_oracle(device, smooth64, points, sampler, material):
     if material == "by hand":
         given = expected_material = BY_HAND
     else:
         model = "kurt" if "Kurt" in material else "ggx"
-        given = burnish.Material.metallic_roughness(**MAPPED, emissive=0.2, model=model)
-        expected_material = map_metallic_roughness(MetallicRoughness(**MAPPED), 0.2, model)
+        sheen = (0.6, 0.2, 0.4) if "cloth" in material else 0.0
+        given = burnish.Material.metallic_roughness(
+            **MAPPED, emissive=0.2, model=model, sheen=sheen, sheen_roughness=0.6
+        )
+        source = MetallicRoughness(**MAPPED, sheen_color=sheen, sheen_roughness=0.6)
+        expected_material = map_metallic_roughness(source, 0.2, model)
     expected = oracle_shade(levels_of(device, smooth64, sampler), expected_material, sampler, *points)
     got = burnish.shade(smooth64, given, sampler, *points, device=device)
     compare_radiance(got, expected, 4e-3 if lookup_error(device, 1) == 0 else 2e-2, 0.03, 20)
 
 
-@pytest.mark.parametrize("model", ["ggx", "kurt"])
+@pytest.mark.parametrize("model", ["ggx", "kurt", "cloth"])
 @pytest.mark.parametrize("sampler", [burnish.Matched(14), burnish.Prefiltered(), burnish.Regular()], ids=repr)
 def test_a_texture_of_ones_changes_no_layer(device, smooth64, sampler, model, tmp_path):
     """Emission, diffuse part, base and coat in the textured kernel are those of the plain one."""
@@ -96,6 +119,10 @@ def test_a_texture_of_ones_changes_no_layer(device, smooth64, sampler, model, tm
         "extensions": {"KHR_materials_clearcoat": {"clearcoatFactor": 0.7, "clearcoatRoughnessFactor": 0.4}},
     }
     extensions = ["KHR_materials_clearcoat"]
+    if model == "cloth":
+        model, extensions = "ggx", [*extensions, "KHR_materials_sheen"]
+        sheen = {"sheenColorFactor": [0.6, 0.2, 0.4], "sheenRoughnessFactor": 0.5}
+        material["extensions"]["KHR_materials_sheen"] = sheen
     plain = write_quad(tmp_path / "plain.gltf", material, [], extensions, model=model)
     material["pbrMetallicRoughness"]["baseColorTexture"] = {"index": 0}
     textured = write_quad(tmp_path / "quad.gltf", material, [np.ones((4, 4, 3))], extensions, model=model)

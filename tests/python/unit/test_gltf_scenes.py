@@ -83,7 +83,6 @@ def test_values_that_gltf_forbids_warn(tmp_path, material, text):
 CHANGING = [
     "KHR_materials_transmission",
     "KHR_materials_volume",
-    "KHR_materials_sheen",
     "KHR_materials_iridescence",
     "KHR_materials_pbrSpecularGlossiness",
     "KHR_node_visibility",

@@ -18,7 +18,8 @@ const std::set<std::string> SUPPORTED = {"KHR_materials_specular",
                                          "KHR_materials_emissive_strength",
                                          "KHR_mesh_quantization",
                                          "EXT_mesh_gpu_instancing",
-                                         "KHR_lights_punctual"};
+                                         "KHR_lights_punctual",
+                                         "KHR_materials_sheen"};
 
 /// They hold metadata, other choices than the file's own, behaviour over time, or a second encoding of data
 /// that the file has to give plainly too where it does not require the extension.
@@ -69,7 +70,6 @@ const std::map<std::string, std::string> DRAWN_INSTEAD = {
     {"KHR_materials_dispersion", "its materials are drawn without dispersion"},
     {"KHR_materials_iridescence", "its materials are drawn without the colours of a thin film"},
     {"KHR_materials_pbrSpecularGlossiness", BY_METALLIC_ROUGHNESS},
-    {"KHR_materials_sheen", "its materials are drawn without sheen"},
     {"KHR_materials_subsurface", "its materials are drawn opaque"},
     {"KHR_materials_transmission", "its materials are drawn opaque"},
     {"KHR_materials_volume", "its materials are drawn as surfaces, nothing is refracted or absorbed inside"},

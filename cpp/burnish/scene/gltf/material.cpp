@@ -258,6 +258,14 @@ void MaterialLoader::read_extensions(const tinygltf::Material& from, Material& m
             source.clearcoat_normal_scale =
                 static_cast<float>(number_or(extension->Get("clearcoatNormalTexture"), "scale", 1.0));
     }
+    if (auto* extension = find_extension(from.extensions, "KHR_materials_sheen")) {
+        const std::vector<double> color = numbers_or(*extension, "sheenColorFactor", {0, 0, 0});
+        source.sheen_color = bounded(color, 1.0f, where + ".sheenColorFactor");
+        source.sheen_roughness = factor_of(*extension, "sheenRoughnessFactor", 0.0f, 0.0f, 1.0f, where);
+        for (const char* name : {"sheenColorTexture", "sheenRoughnessTexture"})
+            if (extension->Has(name)) warn(where + "." + name + ": not read, its factor holds everywhere");
+        if (model_ == MaterialModel::kurt) warn(where + ": model \"kurt\" is drawn without sheen");
+    }
     if (auto* extension = find_extension(from.extensions, "KHR_materials_emissive_strength")) {
         float strength = factor_of(*extension, "emissiveStrength", 1.0f, 0.0f, LARGEST, where);
         material.emissive = glm::min(material.emissive * strength, glm::vec3(LARGEST));

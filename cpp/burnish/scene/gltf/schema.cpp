@@ -57,6 +57,8 @@ Property material_extensions() {
                  texture("specularColorTexture")}),
          object("KHR_materials_anisotropy",
                 {number("anisotropyStrength"), number("anisotropyRotation"), texture("anisotropyTexture")}),
+         object("KHR_materials_sheen", {numbers("sheenColorFactor", 3), texture("sheenColorTexture"),
+                                        number("sheenRoughnessFactor"), texture("sheenRoughnessTexture")}),
          object("KHR_materials_clearcoat",
                 {number("clearcoatFactor"), texture("clearcoatTexture"), number("clearcoatRoughnessFactor"),
                  texture("clearcoatRoughnessTexture"),

@@ -22,6 +22,8 @@ HAS_FIXED_HALF_VECTORS = False
 HAS_VIEW_TABLES = False
 #: Slope of Kurt's lobe that prefiltered maps show it by, over its width.
 FILTER_SLOPE = 1.0
+#: Divided by its albedo where that exceeds 1.
+ALWAYS_CONSERVES = True
 #: Least alpha, and the least cosine of light that it is divided by.
 MIN_ALPHA, MIN_COS_I = 1e-3, 1e-3
 # Nodes of albedos along the cosine and around half of the hemisphere.
