@@ -1,4 +1,5 @@
 // Material and Camera: values that do not change once made, so that no copy can go stale unseen.
+#include "burnish/plan/material_traits.h"
 #include "burnish/scene/idle_parts.h"
 #include "burnish/scene/scene.h"
 #include "scene_values.h"
@@ -45,6 +46,34 @@ Material make_metallic_roughness(const Color& base_color, float metallic, float 
     material.double_sided = double_sided;
     validate(material);
     map_metallic_roughness(material);
+    return material;
+}
+
+Material replaced(const Material& from, const std::optional<Color>& diffuse,
+                  const std::optional<std::vector<Lobe>>& lobes, const std::optional<Color>& emissive,
+                  const std::optional<std::string>& name, std::optional<bool> double_sided,
+                  std::optional<bool> layered) {
+    Material material = from;
+    if (diffuse || lobes || layered) {
+        if (is_varying(material))
+            throw std::invalid_argument(
+                "diffuse, lobes, layered: expected none for a material whose textures or "
+                "vertex colours say what they are, got one");
+        material.source.reset(); // it is no longer what a file described
+        material.left_out.clear();
+    }
+    if (diffuse) material.diffuse = vec3_of(*diffuse);
+    if (lobes) material.lobes = *lobes;
+    const bool has_layers = layered.value_or(!material.covers.empty());
+    if (lobes || layered) {
+        material.covers.clear();
+        if (has_layers) make_layers(material);
+    }
+    if (emissive) material.emissive = vec3_of(*emissive);
+    if (name) material.name = *name;
+    if (double_sided) material.double_sided = *double_sided;
+    validate(material);
+    if (lobes) leave_out_idle_lobes(material);
     return material;
 }
 
@@ -175,6 +204,24 @@ Raises
 ------
 ValueError
     If a number is out of its range, or there is no such model.)")
+        .def("replace", &replaced, py::kw_only(), py::arg("diffuse") = py::none(),
+             py::arg("lobes") = py::none(), py::arg("emissive") = py::none(), py::arg("name") = py::none(),
+             py::arg("double_sided") = py::none(), py::arg("layered") = py::none(),
+             R"(The same material but for what is given.
+
+Parameters
+----------
+diffuse, lobes, emissive, name, double_sided, layered : as of Material, or None
+    None stays as it is. Layers of other lobes take what they reflect.
+
+Returns
+-------
+material : Material
+
+Raises
+------
+ValueError
+    If a number is out of its range, or diffuse part, lobes or layers are to be others than textures say.)")
         .def_readonly(
             "left_out", &Material::left_out,
             "List of str: parts that change no pixel and are not drawn, and why: lobes that reflect "

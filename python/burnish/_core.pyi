@@ -76,6 +76,16 @@ class Material:
         name: str = "",
         double_sided: bool = False,
     ) -> Material: ...
+    def replace(
+        self,
+        *,
+        diffuse: _Color | None = None,
+        lobes: Sequence[_Lobe] | None = None,
+        emissive: _Color | None = None,
+        name: str | None = None,
+        double_sided: bool | None = None,
+        layered: bool | None = None,
+    ) -> Material: ...
     @property
     def left_out(self) -> list[str]: ...
     @property
