@@ -261,3 +261,54 @@ def test_hard_lobes_are_finite_from_every_view(device, spots64, roughness, sampl
     got = shade(device, spots64, [lobe], sampler, views)
     assert np.isfinite(got).all() and got.min() >= 0
     assert got.max() <= 1.2 * spots64.faces.max()
+
+
+HARD_DIRECTIONS = {
+    "uniform": burnish.PhongLobe(0.0),
+    "mirror": burnish.PhongLobe(1e6),
+    "long": burnish.LafortuneLobe((-1.4, -1.4, 1.4), 300.0, weight=1e-30),
+    "short": burnish.LafortuneLobe((-0.5, -0.5, 0.5), 1000.0),
+    "below the horizon": burnish.LafortuneLobe((-1, -1, -1), 20.0),
+    "nowhere": burnish.LafortuneLobe((0, 0, 0), 5.0),
+    "along the tangent": burnish.LafortuneLobe((1, 0, 0), 30.0),
+    "largest": burnish.LafortuneLobe((-1e3, -1e3, 1e3), 1e6, weight=1e-30),
+    "smoothest cloth": burnish.SheenLobe(0.0),
+    "roughest cloth": burnish.SheenLobe(1.0),
+}
+
+
+@pytest.mark.parametrize("name", HARD_DIRECTIONS)
+def test_hard_lobes_of_directions_are_finite_from_every_view(device, spots64, name):
+    views = views_about_z(
+        np.array([0.0, 1e-6, 1e-4, 1e-3, 0.01, 0.1, 0.5, 1.0]), np.linspace(0, 2 * np.pi, 9)
+    )
+    scene = burnish.Scene()
+    scene.lights = [burnish.DirectionalLight((0, -1, -1), angle=0.1), burnish.DirectionalLight((0, 0, -1))]
+    for sampler in (burnish.Matched(5), burnish.Regular(14), burnish.Importance(14), burnish.Prefiltered()):
+        material = burnish.Material(lobes=[HARD_DIRECTIONS[name]])
+        got = burnish.shade(
+            spots64, material, sampler, *views, device=device, scene=scene, strict=name != "largest"
+        )
+        assert np.isfinite(got).all() and got.min() >= 0
+
+
+@pytest.mark.parametrize(
+    ("wrong", "message"),
+    [
+        ({"exponent": -1.0}, "exponent: expected"),
+        ({"exponent": float("nan")}, "exponent: expected"),
+        ({"c": (0, float("inf"), 0)}, "c: expected"),
+        ({"weight": -1.0}, "weight: expected"),
+        ({"rotation": float("nan")}, "rotation: expected a finite number"),
+    ],
+)
+def test_numbers_of_lafortune_out_of_range_are_refused(wrong, message):
+    with pytest.raises(ValueError, match=message):
+        burnish.LafortuneLobe(**wrong)
+
+
+def test_numbers_of_sheen_out_of_range_are_refused():
+    with pytest.raises(ValueError, match=r"roughness: expected 0..1, got 1.5"):
+        burnish.SheenLobe(1.5)
+    with pytest.raises(ValueError, match=r"weight: expected finite numbers >= 0, got -1"):
+        burnish.SheenLobe(0.5, -1.0)
