@@ -24,7 +24,8 @@ from .regular_pattern import choose_pattern
 def energy_scale(normals: Array, tangents: Array, views: Array, lobe: Any, reflectance: Any = None) -> Array:
     """What a lobe is multiplied by for its energy, (..., 1) or (..., 3); 1 unless it asks for something.
 
-    `conserve_energy`, and sheen: 1/max(1, E_1), E_1 the albedo for a reflectance of 1: no more comes back than came in.
+    `conserve_energy`, and sheen: 1/max(1, E_1), E_1 the albedo for a reflectance of 1: no more comes back
+    than came in.
     `compensate` "scale": 1 + r (1/E_1 - 1) with r = r0/f90, or `reflectance`: what light lost between facets.
     """
     compensates = getattr(lobe, "compensate", "none") == "scale"
