@@ -221,7 +221,7 @@ TEST_F(Gltf, ReadsMaterialsAndTheirExtensions) {
                "KHR_materials_anisotropy":{"anisotropyStrength":0.5,"anisotropyRotation":1}}},
             {"extensions":{"KHR_materials_unlit":{}},"pbrMetallicRoughness":{"baseColorFactor":[0.5,0.25,1,1]}}],)" +
         one_mesh(message(R"({"material":0,"attributes":{"POSITION":)", positions, R"(},"mode":6})")) +
-        R"(,"extensionsUsed":["KHR_materials_sheen","KHR_materials_ior","VENDOR_x"])"));
+        R"(,"extensionsUsed":["KHR_materials_iridescence","KHR_materials_ior","VENDOR_x"])"));
     const Material& material = scene.materials.at(0);
     EXPECT_EQ(material.emissive, glm::vec3(4, 2, 0));
     EXPECT_EQ(material.alpha_mode, AlphaMode::mask);
@@ -234,10 +234,11 @@ TEST_F(Gltf, ReadsMaterialsAndTheirExtensions) {
     EXPECT_NEAR(std::get<GgxLobe>(material.lobes[0]).r0.x * std::get<GgxLobe>(material.lobes[0]).weight.x,
                 0.5f / 9.0f, 1e-6f);
     EXPECT_EQ(material.source->base_color.w, 0.75f);
-    EXPECT_EQ(scene.ignored_extensions, (std::vector<std::string>{"KHR_materials_sheen", "VENDOR_x"}));
+    EXPECT_EQ(scene.ignored_extensions, (std::vector<std::string>{"KHR_materials_iridescence", "VENDOR_x"}));
     EXPECT_FALSE(scene.meshes.at(0).tangents.empty()); // anisotropic: derived around y, since there is no uv
     ASSERT_EQ(scene.warnings.size(), 3u);
-    EXPECT_EQ(scene.warnings[0], "KHR_materials_sheen: its materials are drawn without sheen");
+    EXPECT_EQ(scene.warnings[0],
+              "KHR_materials_iridescence: its materials are drawn without the colours of a thin film");
     EXPECT_EQ(scene.warnings[1], "VENDOR_x: not known here, drawn as if it were not there");
     EXPECT_NE(scene.warnings[2].find("longitude"), std::string::npos);
     EXPECT_TRUE(scene.materials[1].lobes.empty());
