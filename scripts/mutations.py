@@ -200,7 +200,7 @@ MUTATIONS = (
     Mutation(
         "suns that are points",
         "glsl/shade/suns.glsl",
-        "float scale = sqrt(0.5 * sun.w) / h.z;",
+        "float scale = sqrt(0.5 * variance) / h.z;",
         "float scale = 0.0;",
         ("sun of half a degree, split off",),
     ),

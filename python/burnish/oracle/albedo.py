@@ -5,7 +5,7 @@ from functools import lru_cache
 import numpy as np
 import numpy.typing as npt
 
-from .arrays import Array, as_array
+from .arrays import Array, as_array, remembered
 from .lobe.base import MIN_COS_O
 
 # q = exp(-36) = 2e-16: nothing of the lobe lies beyond this slope, in units of roughness.
@@ -43,8 +43,13 @@ def directional_albedo(omega_o: npt.ArrayLike, roughness: npt.ArrayLike, alpha: 
     parts : (..., 2)
         E_1 and E_s; relative error below 1e-5.
     """
-    mx, my = np.broadcast_to(as_array(roughness), 2)
-    omega_o = as_array(omega_o)
+    return _sum_albedo(omega_o, roughness, alpha)
+
+
+@remembered
+def _sum_albedo(omega_o: Array, roughness: Array, exponent: Array) -> Array:
+    alpha = float(exponent)
+    mx, my = np.broadcast_to(roughness, 2)
     flat = omega_o.reshape(-1, 3)
     parts = [_albedo_chunk(flat[i : i + _CHUNK], mx, my, alpha) for i in range(0, len(flat), _CHUNK)]
     return np.concatenate(parts or [np.zeros((0, 2))]).reshape(*omega_o.shape[:-1], 2)

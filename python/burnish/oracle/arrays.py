@@ -1,5 +1,8 @@
 """Small vector helpers shared by the oracle."""
 
+from collections import OrderedDict
+from collections.abc import Callable
+from functools import wraps
 from typing import Any
 
 import numpy as np
@@ -8,6 +11,9 @@ import numpy.typing as npt
 Array = npt.NDArray[np.float64]
 IntArray = npt.NDArray[np.int64]
 BoolArray = npt.NDArray[np.bool_]
+
+# Results that `remembered` keeps of each function, and numbers that one may depend on.
+_MOST_REMEMBERED, _MOST_NUMBERS = 64, 10_000
 
 
 def as_array(values: npt.ArrayLike) -> Array:
@@ -34,3 +40,24 @@ def reflect(omega_o: npt.ArrayLike, h: npt.ArrayLike) -> Array:
     omega_o, h = as_array(omega_o), as_array(h)
     result: Array = 2 * dot(omega_o, h)[..., None] * h - omega_o
     return result
+
+
+def remembered(function: Callable[..., Array]) -> Callable[..., Array]:
+    """Keep the last small results of a function of arrays, read-only: quadratures are asked for again."""
+    known: OrderedDict[Any, Array] = OrderedDict()
+
+    @wraps(function)
+    def ask(*arguments: Any) -> Array:
+        arrays = [as_array(argument) for argument in arguments]
+        if sum(array.size for array in arrays) > _MOST_NUMBERS:
+            return function(*arrays)
+        key = tuple((array.shape, array.tobytes()) for array in arrays)
+        if key not in known:
+            known[key] = function(*arrays)
+            known[key].setflags(write=False)
+            if len(known) > _MOST_REMEMBERED:
+                known.popitem(last=False)
+        known.move_to_end(key)
+        return known[key]
+
+    return ask

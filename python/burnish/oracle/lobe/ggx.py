@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from ..arrays import Array, as_array, dot, normalize
+from ..arrays import Array, as_array, dot, normalize, remembered
 from .base import MIN_COS_O, Reflected, Values, grazing_reflectance, quadratic_form, schlick_fresnel, slopes
 
 #: Of the lobe in its plane: (1 + |x|^2)^-2/pi.
@@ -249,6 +249,12 @@ def _albedo_places() -> tuple[Array, Array]:
 
 def albedo(omega_o: Array, lobe: Any) -> Array:
     """E_1 and E_s, (..., 2): int f cos_i for F = 1 and for F = (1 - o.h)^5, within 3e-4."""
+    return _sum_albedo(omega_o, slopes(lobe))
+
+
+@remembered
+def _sum_albedo(omega_o: Array, alpha: Array) -> Array:
+    lobe = GgxLobe(tuple(alpha))
     place, weight = _albedo_places()
     flat = as_array(omega_o).reshape(-1, 1, 3)
     parts = []

@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from ..arrays import Array, as_array, dot, normalize
+from ..arrays import Array, as_array, dot, normalize, remembered
 from .base import MIN_COS_O, Reflected, Values, slopes
 
 #: Of the lobe in its plane: exp(-|x|^2)/pi.
@@ -121,6 +121,12 @@ def under_light(omega_i: Array, omega_o: Array, lobe: Any, variance: Array) -> A
 
 def albedo(omega_o: Array, lobe: Any) -> Array:
     """E_1, and 0 for E_s, (..., 2): int D V ci, nodes crowding toward the horizon."""
+    return _sum_albedo(omega_o, lobe.roughness)
+
+
+@remembered
+def _sum_albedo(omega_o: Array, roughness: Array) -> Array:
+    lobe = SheenLobe(float(roughness))
     x, w = np.polynomial.legendre.leggauss(_HEIGHTS)
     share = 0.5 * (x + 1)
     height, height_weight = share**3, 1.5 * share**2 * w
