@@ -17,6 +17,7 @@ layout(constant_id = SPEC_HAS_TANGENT) const bool HAS_TANGENT = false;
 layout(constant_id = SPEC_HAS_DIFFUSE) const bool HAS_DIFFUSE = false;
 layout(constant_id = SPEC_HAS_EMISSIVE) const bool HAS_EMISSIVE = false;
 layout(constant_id = SPEC_HAS_VARYING) const bool HAS_VARYING = false;
+layout(constant_id = SPEC_HAS_VARYING_EMISSIVE) const bool HAS_VARYING_EMISSIVE = false;
 layout(constant_id = SPEC_HAS_COAT) const bool HAS_COAT = false;
 layout(constant_id = SPEC_HAS_COAT_NORMAL) const bool HAS_COAT_NORMAL = false;
 layout(constant_id = SPEC_HAS_FIXED_LOBE) const bool HAS_FIXED_LOBE = false;

@@ -113,7 +113,8 @@ vec3 point_diffuse(PointToShade point) {
 
 vec3 point_emissive(PointToShade point) {
     vec4 emissive = load_material(point.material).emissive;
-    return HAS_VARYING ? imageLoad(varying_emissive, point.pixel).rgb * emissive.a : emissive.rgb;
+    return HAS_VARYING && HAS_VARYING_EMISSIVE ? imageLoad(varying_emissive, point.pixel).rgb * emissive.a
+                                               : emissive.rgb;
 }
 
 // Of a varying material the clear coat is the last lobe and the base the first; where the base reflects
@@ -131,7 +132,8 @@ SurfaceLobe point_lobe(PointToShade point, uint lobe_index, uint which) {
     if (HAS_VARYING && !is_coat(which) && !is_fixed(which)) {
         vec4 specular = imageLoad(varying_specular, point.pixel);
         lobe.specular = specular.rgb;
-        lobe.grazing = vec3(imageLoad(varying_emissive, point.pixel).a) - specular.rgb;
+        float along = HAS_VARYING_EMISSIVE ? imageLoad(varying_emissive, point.pixel).a : 1.0;
+        lobe.grazing = vec3(along) - specular.rgb;
         lobe.roughness = vec2(imageLoad(varying_diffuse, point.pixel).a, specular.a);
         return lobe;
     }

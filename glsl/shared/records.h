@@ -12,6 +12,8 @@ SHARED_CONST uint LOBE_ROWS = 7u;
 SHARED_CONST uint MATERIAL_ROWS = 3u;
 SHARED_CONST uint MAP_ROWS = 21u;
 SHARED_CONST uint LIGHT_ROWS = 4u;
+SHARED_CONST uint SURFACE_ROWS = 6u;
+SHARED_CONST uint TEXTURE_ROWS = 2u;
 
 // One lobe of one material.
 struct LobeRecord {
@@ -130,7 +132,7 @@ struct SurfaceRecord {
     uint pad1;
     uint pad2;
 };
-SHARED_SIZE(SurfaceRecord, 96)
+SHARED_SIZE(SurfaceRecord, 16 * SURFACE_ROWS)
 
 // Push constants of one draw.
 struct DrawRecord {
@@ -183,7 +185,7 @@ struct TextureRecord {
     uint uv_set;          // 0 or 1
     uint coverage_levels; // COVERAGE_LEVELS_*: of the base colour, what alpha of its mip levels is
 };
-SHARED_SIZE(TextureRecord, 32)
+SHARED_SIZE(TextureRecord, 16 * TEXTURE_ROWS)
 
 SHARED_END
 

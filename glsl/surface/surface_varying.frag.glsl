@@ -7,6 +7,7 @@
 #include "lib/random.glsl"
 #include "shared/constants.h"
 #include "shared/records.h"
+#include "surface/records.glsl"
 
 layout(constant_id = SPEC_TEXTURES) const uint TEXTURES = 0u;
 layout(constant_id = SPEC_VERTEX_COLOR) const bool HAS_VERTEX_COLOR = false;
@@ -16,10 +17,6 @@ layout(constant_id = SPEC_DOUBLE_SIDED) const bool IS_DOUBLE_SIDED = false;
 
 layout(push_constant) uniform Push { DrawRecord draw; };
 layout(std430, binding = BINDING_SURFACE_VIEW) readonly buffer Views { ViewRecord view; };
-layout(std430, binding = BINDING_SURFACE_MATERIALS) readonly buffer Materials { SurfaceRecord materials[]; };
-layout(std430, binding = BINDING_SURFACE_TEXTURE_RECORDS) readonly buffer TextureRecords {
-    TextureRecord texture_records[];
-};
 layout(binding = BINDING_SURFACE_TEXTURES) uniform sampler2D textures[TEXTURE_KINDS];
 
 layout(location = 0) in vec3 normal_world;
@@ -43,7 +40,7 @@ bool has_texture(uint kind) { return (TEXTURES & (1u << kind)) != 0u; }
 // compiled.
 vec4 read_texture(uint kind, vec4 absent) {
     if (!has_texture(kind)) return absent;
-    TextureRecord record = texture_records[material.texture_begin + kind];
+    TextureRecord record = load_texture(material.texture_begin + kind);
     bool is_first = record.uv_set == 0u;
     vec2 set = is_first ? uv.xy : uv.zw;
     mat2 scale_rotation = mat2(record.scale_rotation.xy, record.scale_rotation.zw);
@@ -67,7 +64,7 @@ vec3 bend_normal(uint kind, float scale, mat3 frame) {
 // How much of the base colour's alpha, as it was read, is coverage: level 0 of its texture holds alpha, all
 // others the share of level 0 that shows.
 float coverage_share() {
-    TextureRecord record = texture_records[material.texture_begin + TEXTURE_BASE_COLOR];
+    TextureRecord record = load_texture(material.texture_begin + TEXTURE_BASE_COLOR);
     if (record.coverage_levels == COVERAGE_LEVELS_NONE) return 0.0;
     mat2 scale_rotation = mat2(record.scale_rotation.xy, record.scale_rotation.zw);
     vec2 size = vec2(textureSize(textures[TEXTURE_BASE_COLOR], 0));
@@ -99,7 +96,7 @@ vec4 round_to_half(vec4 v) {
 void main() {
     uv_dx = dFdx(uv);
     uv_dy = dFdy(uv);
-    material = materials[draw.material];
+    material = load_surface(draw.material);
     vec4 base = material.base_color;
     if (HAS_VERTEX_COLOR) base *= color;
     float most_alpha = base.a;

@@ -56,6 +56,12 @@ bool has_fixed_lobe(const Material& material) {
            material.source->sheen_color != glm::vec3(0.0f);
 }
 
+bool has_varying_emissive(const Material& material) {
+    return is_varying(material) &&
+           (has_emissive(material) || material.source->specular != 1.0f ||
+            has_texture(material, &MetallicRoughness::specular_texture));
+}
+
 bool has_layers(const Material& material) {
     if (material.covers.empty()) return false;
     return material.lobes.size() > 1 || has_diffuse(material) ||

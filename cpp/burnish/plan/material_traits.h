@@ -18,6 +18,8 @@ bool has_coat(const Material& material);
 bool has_coat_normal(const Material& material);
 /// Of a textured material a lobe is the same all over the surface: the last but the coat.
 bool has_fixed_lobe(const Material& material);
+/// A textured material emits, or its base does not reflect all along the surface: both go into one target.
+bool has_varying_emissive(const Material& material);
 /// A lobe takes light from something that lies below it.
 bool has_layers(const Material& material);
 /// A lobe reflects differently along tangent and bitangent.

@@ -20,18 +20,20 @@ vulkan::Image target(const vulkan::DevicePointer& device, VkFormat format, uint3
 
 } // namespace
 
-FrameTargets::FrameTargets(const vulkan::DevicePointer& device, uint32_t width_px, uint32_t height_px,
-                           bool is_varying, bool is_summed, bool is_displayed, uint32_t lists)
-    : width(width_px), height(height_px), has_varying(is_varying), has_sum(is_summed),
-      has_display(is_displayed), list_count(lists) {
+FrameTargets::FrameTargets(const vulkan::DevicePointer& device, const TargetSettings& wanted)
+    : settings(wanted) {
+    const uint32_t width = wanted.width, height = wanted.height;
     const VkImageUsageFlags color = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_STORAGE_BIT;
     surface = target(device, SURFACE_FORMAT, width, height, color);
     depth = target(device, DEPTH_FORMAT, width, height,
                    VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT);
-    const uint32_t varying_width = is_varying ? width : 1, varying_height = is_varying ? height : 1;
-    for (vulkan::Image* image : {&varying_diffuse, &varying_specular, &varying_emissive})
-        *image = target(device, VARYING_FORMAT, varying_width, varying_height, color);
-    varying_coat = target(device, COAT_FORMAT, varying_width, varying_height, color);
+    const auto varying = [&](bool is_there, VkFormat format) {
+        return target(device, format, is_there ? width : 1, is_there ? height : 1, color);
+    };
+    varying_diffuse = varying(wanted.has_varying, VARYING_FORMAT);
+    varying_specular = varying(wanted.has_varying, VARYING_FORMAT);
+    varying_emissive = varying(wanted.has_varying && wanted.has_varying_emissive, VARYING_FORMAT);
+    varying_coat = varying(wanted.has_varying && wanted.has_varying_coat, COAT_FORMAT);
     const VkDeviceSize pixels = VkDeviceSize(width) * height;
     tile_capacity = ((width + shared::TILE_SIZE - 1) / shared::TILE_SIZE) *
                     ((height + shared::TILE_SIZE - 1) / shared::TILE_SIZE);
@@ -40,12 +42,12 @@ FrameTargets::FrameTargets(const vulkan::DevicePointer& device, uint32_t width_p
     const vulkan::MemoryUse use =
         device->info().is_software ? vulkan::MemoryUse::read_back : vulkan::MemoryUse::device;
     // One more pixel, for what is not finite (glsl/shade/guard.glsl).
-    const bool has_radiance = has_sum || !has_display;
+    const bool has_radiance = wanted.has_sum || !wanted.has_display;
     radiance = vulkan::Buffer(device, (has_radiance ? pixels + 1 : 1) * sizeof(glm::vec4), storage, use);
-    display = vulkan::Buffer(device, (has_display ? pixels + 1 : 1) * sizeof(uint32_t), storage, use);
-    sum = vulkan::Buffer(device, (has_sum ? pixels : 1) * sizeof(glm::vec4), storage, use);
-    tiles = vulkan::Buffer(device, VkDeviceSize(list_count) * tile_capacity * sizeof(uint32_t), storage);
-    tile_counts = vulkan::Buffer(device, list_count * sizeof(glm::uvec4),
+    display = vulkan::Buffer(device, (wanted.has_display ? pixels + 1 : 1) * sizeof(uint32_t), storage, use);
+    sum = vulkan::Buffer(device, (wanted.has_sum ? pixels : 1) * sizeof(glm::vec4), storage, use);
+    tiles = vulkan::Buffer(device, VkDeviceSize(wanted.list_count) * tile_capacity * sizeof(uint32_t), storage);
+    tile_counts = vulkan::Buffer(device, wanted.list_count * sizeof(glm::uvec4),
                                  storage | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT);
     counters = vulkan::Buffer(device, sizeof(shared::Counters), storage);
     view = vulkan::Buffer(device, sizeof(shared::ViewRecord),

@@ -13,16 +13,23 @@ constexpr VkFormat VARYING_FORMAT = VK_FORMAT_R16G16B16A16_SFLOAT;
 constexpr VkFormat COAT_FORMAT = VK_FORMAT_R32G32_UINT;
 constexpr VkFormat DEPTH_FORMAT = VK_FORMAT_D32_SFLOAT;
 
-/// Kept while the size stays.
-struct FrameTargets {
-    uint32_t width = 0, height = 0;
+struct TargetSettings {
+    uint32_t width = 0, height = 0; ///< pixels
     bool has_varying = false;
+    bool has_varying_emissive = false, has_varying_coat = false; ///< of has_varying
     bool has_sum = false;
     bool has_display = false;
     uint32_t list_count = 0; ///< of tiles, that there is room for
+
+    bool operator==(const TargetSettings&) const = default;
+};
+
+/// Kept while the size stays.
+struct FrameTargets {
+    TargetSettings settings;
     vulkan::Image surface;   ///< RG32UI: see pack_surface in glsl/lib/frame.glsl
     vulkan::Image depth;     ///< D32, reverse z
-    vulkan::Image varying_diffuse, varying_specular, varying_emissive; ///< one texel unless has_varying
+    vulkan::Image varying_diffuse, varying_specular, varying_emissive; ///< one texel where the settings have none
     vulkan::Image varying_coat; ///< RG32UI, the same: see coat_out in glsl/surface/surface_varying.frag.glsl
     vulkan::Buffer radiance;    ///< vec4 a pixel and one more; one where display output needs no sum
     vulkan::Buffer sum;         ///< vec4 a pixel, with accumulation; else one
@@ -34,8 +41,7 @@ struct FrameTargets {
     vulkan::TexelView view_rows;
     uint32_t tile_capacity = 0;
 
-    FrameTargets(const vulkan::DevicePointer& device, uint32_t width, uint32_t height, bool has_varying,
-                 bool has_sum, bool has_display, uint32_t list_count);
+    FrameTargets(const vulkan::DevicePointer& device, const TargetSettings& wanted);
 };
 
 } // namespace burnish::render

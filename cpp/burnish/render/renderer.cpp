@@ -171,8 +171,14 @@ std::unique_ptr<FrameWork> Renderer::prepare_frame(const Scene& scene, const Cam
     frame.camera = camera;
     frame.has_display = plan.settings.display_exposure.has_value();
     const bool is_mean = plan.settings.spp > 1;
-    frame.targets = targets_->take(settings.width, settings.height, plan.has_varying, is_mean,
-                                   frame.has_display, tile_list_count(plan));
+    frame.targets = targets_->take({.width = settings.width,
+                                    .height = settings.height,
+                                    .has_varying = plan.has_varying,
+                                    .has_varying_emissive = plan.has_varying_emissive,
+                                    .has_varying_coat = plan.has_coat,
+                                    .has_sum = is_mean,
+                                    .has_display = frame.has_display,
+                                    .list_count = tile_list_count(plan)});
     frame.report = start_report(scene, plan, work->tables);
     frame.report.width = settings.width;
     frame.report.height = settings.height;

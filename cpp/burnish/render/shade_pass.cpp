@@ -132,12 +132,17 @@ ShadePass::Stage ShadePass::make_stage(Pipelines& pipelines, const std::string& 
     bind(shared::BINDING_TEXEL_ALIAS, reference && reference->alias ? *reference->alias : unused_.buffer);
     if (stage.set.has_binding(shared::BINDING_MAPS))
         stage.set.bind(shared::BINDING_MAPS, maps->image().view_as(VK_IMAGE_VIEW_TYPE_CUBE_ARRAY), sampler_);
-    const bool has_varying = targets && targets->has_varying;
+    const TargetSettings there = targets ? targets->settings : TargetSettings{};
     bind_image(shared::BINDING_SURFACE, targets ? targets->surface : unused_.surface);
-    bind_image(shared::BINDING_VARYING_DIFFUSE, has_varying ? targets->varying_diffuse : unused_.varying);
-    bind_image(shared::BINDING_VARYING_SPECULAR, has_varying ? targets->varying_specular : unused_.varying);
-    bind_image(shared::BINDING_VARYING_EMISSIVE, has_varying ? targets->varying_emissive : unused_.varying);
-    bind_image(shared::BINDING_VARYING_COAT, has_varying ? targets->varying_coat : unused_.surface);
+    bind_image(shared::BINDING_VARYING_DIFFUSE,
+               there.has_varying ? targets->varying_diffuse : unused_.varying);
+    bind_image(shared::BINDING_VARYING_SPECULAR,
+               there.has_varying ? targets->varying_specular : unused_.varying);
+    bind_image(shared::BINDING_VARYING_EMISSIVE, there.has_varying && there.has_varying_emissive
+                                                     ? targets->varying_emissive
+                                                     : unused_.varying);
+    bind_image(shared::BINDING_VARYING_COAT,
+               there.has_varying && there.has_varying_coat ? targets->varying_coat : unused_.surface);
     return stage;
 }
 
@@ -161,7 +166,7 @@ void ShadePass::record_tiles(vulkan::Commands& commands) const {
     commands.fill_buffer(targets.tile_counts, 0);
     commands.transition(targets.surface, VK_IMAGE_LAYOUT_GENERAL);
     commands.transition(targets.depth, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL); // by kernels that ask
-    if (targets.has_varying)
+    if (targets.settings.has_varying)
         for (vulkan::Image* image : {&targets.varying_diffuse, &targets.varying_specular,
                                      &targets.varying_emissive, &targets.varying_coat})
             commands.transition(*image, VK_IMAGE_LAYOUT_GENERAL);

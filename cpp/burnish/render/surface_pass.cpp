@@ -95,7 +95,8 @@ std::vector<VkVertexInputAttributeDescription> vertex_attributes(bool is_varying
 
 SurfacePass::SurfacePass(Pipelines& pipelines, GpuScene& gpu_scene, const Scene& scene, const Plan& plan,
                          const glm::dvec3& eye, const FrameTargets& targets)
-    : gpu_scene_(gpu_scene), has_varying_(plan.has_varying), has_tangent_(plan.has_tangent) {
+    : gpu_scene_(gpu_scene), has_varying_(plan.has_varying), has_varying_emissive_(plan.has_varying_emissive),
+      has_coat_(plan.has_coat), has_tangent_(plan.has_tangent) {
     for (const MaterialInstance& instance : plan.instances)
         has_tangent_ |= needs_tangent(scene.materials[instance.material]);
     add_records(pipelines.device(), scene, plan);
@@ -132,10 +133,11 @@ void SurfacePass::add_records(const vulkan::DevicePointer& device, const Scene& 
         surfaces.emplace_back();
         textures.emplace_back();
     }
-    surface_records_ =
-        vulkan::make_buffer(device, std::as_bytes(std::span(surfaces)), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
-    texture_records_ =
-        vulkan::make_buffer(device, std::as_bytes(std::span(textures)), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
+    const VkBufferUsageFlags rows = VK_BUFFER_USAGE_STORAGE_TEXEL_BUFFER_BIT;
+    surface_records_ = vulkan::make_buffer(device, std::as_bytes(std::span(surfaces)), rows);
+    texture_records_ = vulkan::make_buffer(device, std::as_bytes(std::span(textures)), rows);
+    surface_rows_ = vulkan::texel_view(surface_records_, VK_FORMAT_R32G32B32A32_UINT);
+    texture_rows_ = vulkan::texel_view(texture_records_, VK_FORMAT_R32G32B32A32_UINT);
 }
 
 const vulkan::GraphicsPipeline& SurfacePass::pipeline_for(Pipelines& pipelines, const Material& material,
@@ -150,7 +152,9 @@ const vulkan::GraphicsPipeline& SurfacePass::pipeline_for(Pipelines& pipelines, 
     settings.color_formats = {SURFACE_FORMAT};
     if (is_varying)
         settings.color_formats.insert(settings.color_formats.end(),
-                                      {VARYING_FORMAT, VARYING_FORMAT, VARYING_FORMAT, COAT_FORMAT});
+                                      {VARYING_FORMAT, VARYING_FORMAT,
+                                       has_varying_emissive_ ? VARYING_FORMAT : VK_FORMAT_UNDEFINED,
+                                       has_coat_ ? COAT_FORMAT : VK_FORMAT_UNDEFINED});
     settings.depth_format = DEPTH_FORMAT;
     settings.cull_mode = material.double_sided ? VK_CULL_MODE_NONE : VK_CULL_MODE_BACK_BIT;
     settings.front_face = is_mirrored ? VK_FRONT_FACE_CLOCKWISE : VK_FRONT_FACE_COUNTER_CLOCKWISE;
@@ -162,6 +166,7 @@ const vulkan::GraphicsPipeline& SurfacePass::pipeline_for(Pipelines& pipelines, 
             .set(shared::SPEC_UNLIT, material.source && material.source->is_unlit)
             .set(shared::SPEC_ALPHA_MASK, material.alpha_mode != AlphaMode::opaque);
     const std::string key =
+        std::string(has_varying_emissive_ ? "emissive " : "") + (has_coat_ ? "coat " : "") +
         std::string(is_mirrored ? "mirrored " : "") + (has_texture_vertices ? "textured" : "");
     const std::string shader = is_varying ? "surface/surface_varying" : "surface/surface";
     return pipelines.graphics(shader + ".vert", shader + ".frag", key, settings);
@@ -175,8 +180,8 @@ const vulkan::DescriptorSet& SurfacePass::set_for(const vulkan::GraphicsPipeline
     if (!is_new) return set;
     set.bind(shared::BINDING_SURFACE_VIEW, targets.view);
     if (!is_varying) return set;
-    set.bind(shared::BINDING_SURFACE_MATERIALS, surface_records_);
-    set.bind(shared::BINDING_SURFACE_TEXTURE_RECORDS, texture_records_);
+    set.bind_texel_buffer(shared::BINDING_SURFACE_MATERIALS, surface_rows_);
+    set.bind_texel_buffer(shared::BINDING_SURFACE_TEXTURE_RECORDS, texture_rows_);
     for (const TextureKind& kind : TEXTURE_KINDS) {
         const BoundTexture texture =
             gpu_scene_.texture(material.source ? *material.source.*kind.use : TextureUse{}, kind.is_srgb,
@@ -220,10 +225,14 @@ void SurfacePass::record(vulkan::Commands& commands, FrameTargets& targets) cons
         return vulkan::ColorTarget{.image = &image, .clear = VkClearColorValue{}};
     };
     rendering.colors.push_back(clear(targets.surface));
-    if (has_varying_)
-        for (vulkan::Image* image : {&targets.varying_diffuse, &targets.varying_specular,
-                                     &targets.varying_emissive, &targets.varying_coat})
-            rendering.colors.push_back(clear(*image));
+    if (has_varying_) {
+        rendering.colors.push_back(clear(targets.varying_diffuse));
+        rendering.colors.push_back(clear(targets.varying_specular));
+        // The shader writes nothing where there is no target.
+        rendering.colors.push_back(has_varying_emissive_ ? clear(targets.varying_emissive)
+                                                         : vulkan::ColorTarget{});
+        rendering.colors.push_back(has_coat_ ? clear(targets.varying_coat) : vulkan::ColorTarget{});
+    }
     rendering.depth = vulkan::DepthTarget{.image = &targets.depth, .clear = 0.0f};
     commands.begin_pass(pass_name(PassKind::surface));
     commands.begin_rendering(rendering);

@@ -15,8 +15,7 @@ class TargetPool : public std::enable_shared_from_this<TargetPool> {
 public:
     explicit TargetPool(vulkan::DevicePointer device) : device_(std::move(device)) {}
 
-    std::shared_ptr<FrameTargets> take(uint32_t width, uint32_t height, bool has_varying, bool has_sum,
-                                       bool has_display, uint32_t list_count);
+    std::shared_ptr<FrameTargets> take(const TargetSettings& wanted);
     /// Lets go of those that wait.
     void clear();
 

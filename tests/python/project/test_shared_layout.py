@@ -13,10 +13,10 @@ MAGIC = 0x07230203
 OP_NAME, OP_MEMBER_NAME, OP_MEMBER_DECORATE = 5, 6, 72
 DECORATION_OFFSET = 35
 # Shade kernels load these as rows of 16 bytes, which SPIR-V does not know as members.
-LOADED_BY_ROWS = {"LightRecord", "LobeRecord", "MapRecord", "MaterialRecord"}
+LOADED_BY_ROWS = {"LightRecord", "LobeRecord", "MapRecord", "MaterialRecord", "SurfaceRecord", "TextureRecord"}
 WHOLE_ROW = re.compile(r"\w+\.(\w+)(?:\[k\])? = uintBitsToFloat\(ROW\(\w+, \w+, (\d+)(?: \+ k)?\)\);")
 NEXT_ROW = re.compile(r"row = ROW\(\w+, \w+, (\d+)\);")
-PART_OF_ROW = re.compile(r"\w+\.(\w+) = (?:uintBitsToFloat\()?row\.([xyzw])\)?;")
+PART_OF_ROW = re.compile(r"\w+\.(\w+) = (?:uintBitsToFloat\()?row\.([xyzw]+)\)?;")
 
 
 def instructions(binary):
@@ -99,14 +99,14 @@ def test_every_shared_struct_is_in_some_shader(shaders, expected):
 
 @pytest.mark.parametrize("name", sorted(LOADED_BY_ROWS))
 def test_records_are_loaded_from_where_they_lie(expected, name):
-    text = (REPOSITORY / "glsl/shade/records.glsl").read_text()
+    text = "".join((REPOSITORY / f"glsl/{area}/records.glsl").read_text() for area in ("shade", "surface"))
     body = text.split(f"\n{name} load_")[1].split("return")[0]
     offsets, row = {}, None
     for line in body.splitlines():
         if whole := WHOLE_ROW.search(line):
             offsets[whole[1]] = 16 * int(whole[2])
         elif part := PART_OF_ROW.search(line):
-            offsets[part[1]] = 16 * row + 4 * "xyzw".index(part[2])
+            offsets[part[1]] = 16 * row + 4 * "xyzw".index(part[2][0])
         elif following := NEXT_ROW.search(line):
             row = int(following[1])
     fields = {field: offset for field, offset in expected[name].items() if not field.startswith("pad")}
