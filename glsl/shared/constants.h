@@ -153,7 +153,8 @@ SHARED_CONST uint SPEC_HAS_LIGHTS = 32u;           // direct lights
 SHARED_CONST uint SPEC_LISTS_LIGHTS = 33u;         // tiles read which of them reach them
 SHARED_CONST uint SPEC_TILE_LIST = 34u;            // of tiles that a kernel shades
 SHARED_CONST uint SPEC_HAS_FIXED_LOBE = 35u;       // of a textured material, one that no texture varies
-SHARED_CONST uint SPEC_HAS_VARYING_EMISSIVE = 36u; // emission and reflectances along the surface are read, too
+SHARED_CONST uint SPEC_HAS_VARYING_EMISSIVE =
+    36u;                               // emission and reflectances along the surface are read, too
 SHARED_CONST uint SPEC_SAMPLES = 100u; // of the lookups alone, for benchmarks: four floats a sample follow
 
 SHARED_CONST uint LOOKUP_SAMPLER = 0u; // the device's

@@ -1,5 +1,5 @@
-// Records as the surface pass reads them: rows of 16 bytes from texel buffers, as in shade/records.glsl. Members of a
-// record in a storage buffer were a quarter of the pass.
+// Records as the surface pass reads them: rows of 16 bytes from texel buffers, as in shade/records.glsl.
+// Members of a record in a storage buffer were a quarter of the pass.
 #ifndef BURNISH_SURFACE_RECORDS
 #define BURNISH_SURFACE_RECORDS
 

@@ -57,9 +57,8 @@ bool has_fixed_lobe(const Material& material) {
 }
 
 bool has_varying_emissive(const Material& material) {
-    return is_varying(material) &&
-           (has_emissive(material) || material.source->specular != 1.0f ||
-            has_texture(material, &MetallicRoughness::specular_texture));
+    return is_varying(material) && (has_emissive(material) || material.source->specular != 1.0f ||
+                                    has_texture(material, &MetallicRoughness::specular_texture));
 }
 
 bool has_layers(const Material& material) {

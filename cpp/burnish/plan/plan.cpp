@@ -193,7 +193,8 @@ void add_classes(const Scene& scene, Plan& plan) {
         plan.has_lookups |= one.variant[shared::SPEC_LOBE_COUNT] > 0;
         plan.has_varying |= one.variant[shared::SPEC_HAS_VARYING];
         for (const uint32_t instance : one.instances)
-            plan.has_varying_emissive |= has_varying_emissive(scene.materials[plan.instances[instance].material]);
+            plan.has_all_targets |= has_varying_emissive(scene.materials[plan.instances[instance].material]);
+        plan.has_all_targets |= one.variant[shared::SPEC_HAS_COAT];
         plan.has_coat |= one.variant[shared::SPEC_HAS_COAT];
         plan.has_tangent |= one.variant[shared::SPEC_HAS_TANGENT];
     }

@@ -117,7 +117,8 @@ struct Plan {
     bool has_lookups = false; ///< some object has a lobe
     bool has_background = false;
     bool has_varying = false; ///< some material needs the wide G-buffer
-    bool has_varying_emissive = false; ///< and holds emission, or reflectances along the surface that are not 1
+    /// And some emits, has a clear coat, or reflects other than 1 along the surface: of textured materials.
+    bool has_all_targets = false;
     bool has_coat = false;
     bool has_tangent = false;
 

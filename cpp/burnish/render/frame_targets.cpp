@@ -32,8 +32,8 @@ FrameTargets::FrameTargets(const vulkan::DevicePointer& device, const TargetSett
     };
     varying_diffuse = varying(wanted.has_varying, VARYING_FORMAT);
     varying_specular = varying(wanted.has_varying, VARYING_FORMAT);
-    varying_emissive = varying(wanted.has_varying && wanted.has_varying_emissive, VARYING_FORMAT);
-    varying_coat = varying(wanted.has_varying && wanted.has_varying_coat, COAT_FORMAT);
+    varying_emissive = varying(wanted.has_all_targets, VARYING_FORMAT);
+    varying_coat = varying(wanted.has_all_targets, COAT_FORMAT);
     const VkDeviceSize pixels = VkDeviceSize(width) * height;
     tile_capacity = ((width + shared::TILE_SIZE - 1) / shared::TILE_SIZE) *
                     ((height + shared::TILE_SIZE - 1) / shared::TILE_SIZE);
@@ -46,7 +46,8 @@ FrameTargets::FrameTargets(const vulkan::DevicePointer& device, const TargetSett
     radiance = vulkan::Buffer(device, (has_radiance ? pixels + 1 : 1) * sizeof(glm::vec4), storage, use);
     display = vulkan::Buffer(device, (wanted.has_display ? pixels + 1 : 1) * sizeof(uint32_t), storage, use);
     sum = vulkan::Buffer(device, (wanted.has_sum ? pixels : 1) * sizeof(glm::vec4), storage, use);
-    tiles = vulkan::Buffer(device, VkDeviceSize(wanted.list_count) * tile_capacity * sizeof(uint32_t), storage);
+    tiles =
+        vulkan::Buffer(device, VkDeviceSize(wanted.list_count) * tile_capacity * sizeof(uint32_t), storage);
     tile_counts = vulkan::Buffer(device, wanted.list_count * sizeof(glm::uvec4),
                                  storage | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT);
     counters = vulkan::Buffer(device, sizeof(shared::Counters), storage);

@@ -16,7 +16,7 @@ constexpr VkFormat DEPTH_FORMAT = VK_FORMAT_D32_SFLOAT;
 struct TargetSettings {
     uint32_t width = 0, height = 0; ///< pixels
     bool has_varying = false;
-    bool has_varying_emissive = false, has_varying_coat = false; ///< of has_varying
+    bool has_all_targets = false; ///< of has_varying: emission and coats, too
     bool has_sum = false;
     bool has_display = false;
     uint32_t list_count = 0; ///< of tiles, that there is room for
@@ -27,10 +27,11 @@ struct TargetSettings {
 /// Kept while the size stays.
 struct FrameTargets {
     TargetSettings settings;
-    vulkan::Image surface;   ///< RG32UI: see pack_surface in glsl/lib/frame.glsl
-    vulkan::Image depth;     ///< D32, reverse z
-    vulkan::Image varying_diffuse, varying_specular, varying_emissive; ///< one texel where the settings have none
-    vulkan::Image varying_coat; ///< RG32UI, the same: see coat_out in glsl/surface/surface_varying.frag.glsl
+    vulkan::Image surface; ///< RG32UI: see pack_surface in glsl/lib/frame.glsl
+    vulkan::Image depth;   ///< D32, reverse z
+    vulkan::Image varying_diffuse, varying_specular,
+        varying_emissive;       ///< one texel where the settings have none
+    vulkan::Image varying_coat; ///< RG32UI, the same: see coat_out in glsl/surface/surface_varying.glsl
     vulkan::Buffer radiance;    ///< vec4 a pixel and one more; one where display output needs no sum
     vulkan::Buffer sum;         ///< vec4 a pixel, with accumulation; else one
     vulkan::Buffer display;     ///< a byte a channel, a pixel and one more, with display output; else one

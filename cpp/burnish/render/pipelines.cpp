@@ -17,6 +17,7 @@
 #include "spirv/shade_shade_prefiltered_comp.h"
 #include "spirv/surface_surface_frag.h"
 #include "spirv/surface_surface_varying_frag.h"
+#include "spirv/surface_surface_varying_plain_frag.h"
 #include "spirv/surface_surface_varying_vert.h"
 #include "spirv/surface_surface_vert.h"
 
@@ -38,6 +39,7 @@ const std::map<std::string, std::span<const uint32_t>>& spirv() {
         {"shade/shade_prefiltered.comp", shade_shade_prefiltered_comp_spv},
         {"surface/surface.frag", surface_surface_frag_spv},
         {"surface/surface_varying.frag", surface_surface_varying_frag_spv},
+        {"surface/surface_varying_plain.frag", surface_surface_varying_plain_frag_spv},
         {"surface/surface.vert", surface_surface_vert_spv},
         {"surface/surface_varying.vert", surface_surface_varying_vert_spv},
     };

@@ -174,8 +174,7 @@ std::unique_ptr<FrameWork> Renderer::prepare_frame(const Scene& scene, const Cam
     frame.targets = targets_->take({.width = settings.width,
                                     .height = settings.height,
                                     .has_varying = plan.has_varying,
-                                    .has_varying_emissive = plan.has_varying_emissive,
-                                    .has_varying_coat = plan.has_coat,
+                                    .has_all_targets = plan.has_all_targets,
                                     .has_sum = is_mean,
                                     .has_display = frame.has_display,
                                     .list_count = tile_list_count(plan)});

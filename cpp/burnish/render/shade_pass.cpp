@@ -138,11 +138,9 @@ ShadePass::Stage ShadePass::make_stage(Pipelines& pipelines, const std::string& 
                there.has_varying ? targets->varying_diffuse : unused_.varying);
     bind_image(shared::BINDING_VARYING_SPECULAR,
                there.has_varying ? targets->varying_specular : unused_.varying);
-    bind_image(shared::BINDING_VARYING_EMISSIVE, there.has_varying && there.has_varying_emissive
-                                                     ? targets->varying_emissive
-                                                     : unused_.varying);
-    bind_image(shared::BINDING_VARYING_COAT,
-               there.has_varying && there.has_varying_coat ? targets->varying_coat : unused_.surface);
+    bind_image(shared::BINDING_VARYING_EMISSIVE,
+               there.has_all_targets ? targets->varying_emissive : unused_.varying);
+    bind_image(shared::BINDING_VARYING_COAT, there.has_all_targets ? targets->varying_coat : unused_.surface);
     return stage;
 }
 

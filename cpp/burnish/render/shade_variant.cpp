@@ -61,7 +61,7 @@ vulkan::SpecializationConstants common_constants(const Plan& plan, uint32_t shad
     constants.set(shared::SPEC_SOURCE, target.is_points ? shared::SOURCE_POINTS : shared::SOURCE_PIXELS)
         .set(shared::SPEC_IS_DISPLAY, target.is_display)
         .set(shared::SPEC_COUNTS_NON_FINITE, target.counts_non_finite)
-        .set(shared::SPEC_HAS_VARYING_EMISSIVE, plan.has_varying_emissive)
+        .set(shared::SPEC_HAS_VARYING_EMISSIVE, plan.has_all_targets)
         .set(shared::SPEC_SHADE_CLASS, shade_class)
         .set(shared::SPEC_TILE_LIST, shade_class + (target.is_dark ? first_dark_list(plan) : 0));
     for (const Effect& effect : effects())

@@ -95,8 +95,8 @@ std::vector<VkVertexInputAttributeDescription> vertex_attributes(bool is_varying
 
 SurfacePass::SurfacePass(Pipelines& pipelines, GpuScene& gpu_scene, const Scene& scene, const Plan& plan,
                          const glm::dvec3& eye, const FrameTargets& targets)
-    : gpu_scene_(gpu_scene), has_varying_(plan.has_varying), has_varying_emissive_(plan.has_varying_emissive),
-      has_coat_(plan.has_coat), has_tangent_(plan.has_tangent) {
+    : gpu_scene_(gpu_scene), has_varying_(plan.has_varying), has_all_targets_(plan.has_all_targets),
+      has_tangent_(plan.has_tangent) {
     for (const MaterialInstance& instance : plan.instances)
         has_tangent_ |= needs_tangent(scene.materials[instance.material]);
     add_records(pipelines.device(), scene, plan);
@@ -151,10 +151,9 @@ const vulkan::GraphicsPipeline& SurfacePass::pipeline_for(Pipelines& pipelines, 
     settings.vertex_attributes = vertex_attributes(is_varying);
     settings.color_formats = {SURFACE_FORMAT};
     if (is_varying)
-        settings.color_formats.insert(settings.color_formats.end(),
-                                      {VARYING_FORMAT, VARYING_FORMAT,
-                                       has_varying_emissive_ ? VARYING_FORMAT : VK_FORMAT_UNDEFINED,
-                                       has_coat_ ? COAT_FORMAT : VK_FORMAT_UNDEFINED});
+        settings.color_formats.insert(settings.color_formats.end(), {VARYING_FORMAT, VARYING_FORMAT});
+    if (is_varying && has_all_targets_)
+        settings.color_formats.insert(settings.color_formats.end(), {VARYING_FORMAT, COAT_FORMAT});
     settings.depth_format = DEPTH_FORMAT;
     settings.cull_mode = material.double_sided ? VK_CULL_MODE_NONE : VK_CULL_MODE_BACK_BIT;
     settings.front_face = is_mirrored ? VK_FRONT_FACE_CLOCKWISE : VK_FRONT_FACE_COUNTER_CLOCKWISE;
@@ -166,10 +165,10 @@ const vulkan::GraphicsPipeline& SurfacePass::pipeline_for(Pipelines& pipelines, 
             .set(shared::SPEC_UNLIT, material.source && material.source->is_unlit)
             .set(shared::SPEC_ALPHA_MASK, material.alpha_mode != AlphaMode::opaque);
     const std::string key =
-        std::string(has_varying_emissive_ ? "emissive " : "") + (has_coat_ ? "coat " : "") +
         std::string(is_mirrored ? "mirrored " : "") + (has_texture_vertices ? "textured" : "");
     const std::string shader = is_varying ? "surface/surface_varying" : "surface/surface";
-    return pipelines.graphics(shader + ".vert", shader + ".frag", key, settings);
+    const std::string targets = is_varying && !has_all_targets_ ? "_plain" : "";
+    return pipelines.graphics(shader + ".vert", shader + targets + ".frag", key, settings);
 }
 
 const vulkan::DescriptorSet& SurfacePass::set_for(const vulkan::GraphicsPipeline& pipeline,
@@ -228,10 +227,10 @@ void SurfacePass::record(vulkan::Commands& commands, FrameTargets& targets) cons
     if (has_varying_) {
         rendering.colors.push_back(clear(targets.varying_diffuse));
         rendering.colors.push_back(clear(targets.varying_specular));
-        // The shader writes nothing where there is no target.
-        rendering.colors.push_back(has_varying_emissive_ ? clear(targets.varying_emissive)
-                                                         : vulkan::ColorTarget{});
-        rendering.colors.push_back(has_coat_ ? clear(targets.varying_coat) : vulkan::ColorTarget{});
+    }
+    if (has_all_targets_) {
+        rendering.colors.push_back(clear(targets.varying_emissive));
+        rendering.colors.push_back(clear(targets.varying_coat));
     }
     rendering.depth = vulkan::DepthTarget{.image = &targets.depth, .clear = 0.0f};
     commands.begin_pass(pass_name(PassKind::surface));

@@ -40,7 +40,7 @@ private:
                                          uint32_t key, bool is_varying, const FrameTargets& targets);
 
     GpuScene& gpu_scene_;
-    bool has_varying_ = false, has_varying_emissive_ = false, has_coat_ = false, has_tangent_ = false;
+    bool has_varying_ = false, has_all_targets_ = false, has_tangent_ = false;
     vulkan::Buffer surface_records_, texture_records_;
     vulkan::TexelView surface_rows_, texture_rows_;
     std::map<std::pair<uint32_t, const void*>, vulkan::DescriptorSet> sets_;

@@ -23,7 +23,7 @@ std::span<const std::byte> push_bytes(const T& value) {
 }
 
 struct ColorTarget {
-    Image* image = nullptr; // null: what a shader writes there is dropped
+    Image* image = nullptr;
     VkImageView view = VK_NULL_HANDLE;        // null = level 0 of every layer
     std::optional<VkClearColorValue> clear{}; // none = keep what is there
     bool store = true;

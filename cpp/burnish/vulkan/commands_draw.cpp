@@ -35,10 +35,6 @@ void Commands::begin_rendering(const RenderingTargets& targets) {
     };
     std::vector<VkRenderingAttachmentInfo> colors;
     for (const ColorTarget& color : targets.colors) {
-        if (!color.image) {
-            colors.push_back({VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO});
-            continue;
-        }
         use(*color.image);
         colors.push_back(attachment_info(*color.image, color.view, color.clear.has_value(), color.store));
         if (color.clear) colors.back().clearValue.color = *color.clear;

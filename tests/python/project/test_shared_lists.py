@@ -65,7 +65,7 @@ def test_kinds_of_textures_are_those_of_the_shaders():
 
 def test_every_kind_of_texture_is_read_from_files_and_by_the_shader():
     loader = read("cpp/burnish/scene/gltf/material.cpp")
-    shader = read("glsl/surface/surface_varying.frag.glsl")
+    shader = read("glsl/surface/surface_varying.glsl")
     for kind, field in re.findall(
         r"\{shared::TEXTURE_(\w+),\s*\"[^\"]+\",\s*&MetallicRoughness::(\w+)_texture",
         read("cpp/burnish/scene/texture_kinds.h"),
