@@ -13,7 +13,14 @@ MAGIC = 0x07230203
 OP_NAME, OP_MEMBER_NAME, OP_MEMBER_DECORATE = 5, 6, 72
 DECORATION_OFFSET = 35
 # Shade kernels load these as rows of 16 bytes, which SPIR-V does not know as members.
-LOADED_BY_ROWS = {"LightRecord", "LobeRecord", "MapRecord", "MaterialRecord", "SurfaceRecord", "TextureRecord"}
+LOADED_BY_ROWS = {
+    "LightRecord",
+    "LobeRecord",
+    "MapRecord",
+    "MaterialRecord",
+    "SurfaceRecord",
+    "TextureRecord",
+}
 WHOLE_ROW = re.compile(r"\w+\.(\w+)(?:\[k\])? = uintBitsToFloat\(ROW\(\w+, \w+, (\d+)(?: \+ k)?\)\);")
 NEXT_ROW = re.compile(r"row = ROW\(\w+, \w+, (\d+)\);")
 PART_OF_ROW = re.compile(r"\w+\.(\w+) = (?:uintBitsToFloat\()?row\.([xyzw]+)\)?;")
