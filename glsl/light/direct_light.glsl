@@ -27,13 +27,13 @@ ArrivingLight arriving_light(LightRecord light, vec3 position) {
     return arriving;
 }
 
-// Whether some of it may arrive in a sphere.
+// Some of it may arrive in a sphere.
 bool may_arrive(LightRecord light, vec3 center, float radius) {
     if (light.axis.w > 0.0) return true;
     vec3 way = center - light.place.xyz;
     float distance2 = dot(way, way);
     bool is_near = sqrt(distance2 * light.intensity.w) <= 1.0 + radius * sqrt(light.intensity.w);
-    // From the cone of a spot's outer angle, of which the axis is seen under half a right angle at most.
+    // The distance to the cone of a spot's outer angle, which is a right angle at most.
     float along = dot(way, light.axis.xyz);
     float across = sqrt(max(distance2 - along * along, 0.0));
     bool is_beside = light.cone.w > 0.0 && light.cone.z * across - light.cone.w * along > radius;

@@ -76,7 +76,7 @@ LobeDraw lobe_draw(LobeShape l, vec3 omega_o, vec2 x) {
         drawn.omega_i = 2.0 * dot(omega_o, drawn.h) * drawn.h - omega_o;
         return drawn;
     }
-    // Of the plane's density exp(-r^2)/pi.
+    // The plane has the density exp(-r^2)/pi.
     float azimuth = 2.0 * PI * (x.y - 0.5);
     float radius = sqrt(max(-log(clamp(x.x, 5.9604645e-8, 1.0)), 0.0));
     drawn.omega_i = lobe_at(l, omega_o, radius * vec2(cos(azimuth), sin(azimuth))).omega_i;
@@ -122,7 +122,7 @@ float lobe_filter_slope(LobeShape l) {
 // Widths that albedo tables of a fixed lobe go by: the albedo depends on the azimuth as a width does.
 vec2 lobe_albedo_width(LobeShape l) { return l.model == MODEL_LAFORTUNE ? abs(l.own.xy) : l.width; }
 
-// What such a table leaves out, as it changes too fast from node to node.
+// Such a table leaves this out, as it changes too fast from node to node.
 float lobe_albedo_gain(LobeShape l, vec3 omega_o) {
     return l.model == MODEL_LAFORTUNE ? power_lobe(omega_o, l.own).gain : 1.0;
 }

@@ -39,7 +39,7 @@ using DirectLight = std::variant<PointLight, DirectionalLight, SpotLight>;
 void validate(const DirectLight& light);
 /// For reports: "point", "directional" or "spot".
 const char* kind_name(const DirectLight& light);
-/// Whether it gives any light.
+/// It gives some light.
 bool is_lit(const DirectLight& light);
 /// It ends somewhere: there are places that it does not reach.
 bool is_bounded(const DirectLight& light);

@@ -12,7 +12,7 @@ namespace {
 
 constexpr double PI = std::numbers::pi;
 constexpr double LEAST_COS_O = 1e-4, LEAST_COS_I = 1e-3;
-/// Of the plane, in half-vector slopes: that of a cosine about the normal.
+/// The plane is that of a cosine about the normal, so wide as a slope of half-vectors.
 constexpr float WIDTH = 0.5f;
 constexpr int HEIGHTS = 48, FEW_HEIGHTS = 24;
 constexpr int AZIMUTHS = 48, FEW_AZIMUTHS = 24; ///< around half of the hemisphere

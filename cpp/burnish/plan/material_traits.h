@@ -16,7 +16,7 @@ bool has_emissive(const Material& material);
 bool has_coat(const Material& material);
 /// The coat's normal is not the base's: that has a normal map, or the coat has one.
 bool has_coat_normal(const Material& material);
-/// Of a textured material a lobe is the same all over the surface: the last but the coat.
+/// A lobe of a textured material is the same all over the surface: the last but the coat.
 bool has_fixed_lobe(const Material& material);
 /// A textured material emits, or its base does not reflect all along the surface: both go into one target.
 bool has_varying_emissive(const Material& material);

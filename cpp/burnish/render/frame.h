@@ -80,7 +80,7 @@ struct Frame {
     std::vector<float> depth();
     /// World-space shading normals; 0 where nothing is.
     std::vector<glm::vec3> normals();
-    /// Where the rays of the first picture meet the objects, in the world; NaN where nothing is.
+    /// The rays of the first picture meet objects there, in the world; NaN where nothing is.
     std::vector<glm::dvec3> positions();
 
 private:

@@ -15,7 +15,7 @@ glm::vec3 unit_or_zero(const glm::vec3& vector) {
     return length > 0.0 ? glm::vec3(wide / length) : glm::vec3(0.0f);
 }
 
-/// Of their box: what they are relative to in float32.
+/// The middle of their box, which they are relative to in float32.
 glm::dvec3 middle_of(std::span<const glm::dvec3> positions) {
     if (positions.empty()) return glm::dvec3(0.0);
     glm::dvec3 low = positions[0], high = positions[0];

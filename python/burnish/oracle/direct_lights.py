@@ -8,7 +8,7 @@ import numpy as np
 import numpy.typing as npt
 
 from .arrays import Array, as_array, dot, normalize
-from .estimator import local_frame
+from .estimator import LocalFrame, local_frame
 from .lobe.base import grazing_reflectance, normal_reflectance, rotation_of, schlick_fresnel
 from .lobe.models import model_of
 from .shading import add_layers, energy_scale
@@ -73,37 +73,13 @@ def lit_cosine(cosine: npt.ArrayLike, sine: npt.ArrayLike) -> Array:
     return result
 
 
-def shade_lights(
-    material: Any,
-    lights: Sequence[Any],
-    positions: npt.ArrayLike,
-    normals: npt.ArrayLike,
-    tangents: npt.ArrayLike,
-    views: npt.ArrayLike,
-) -> Array:
-    """Radiance (n, 3) under direct lights alone, lobes as samplers see them: wider by the light."""
-
-    def small(light: Arriving, frame: Any, lobe: Any) -> Array:
-        value = shade_small_light(light.omega_i, 0.25 * light.sine**2, frame, lobe)
-        result: Array = as_array(lobe.weight) * value * light.irradiance
-        return result
-
-    return _shade(material, lights, positions, normals, tangents, views, small)
+def _widen(light: Arriving, frame: LocalFrame, lobe: Any) -> Array:
+    value = shade_small_light(light.omega_i, 0.25 * light.sine**2, frame, lobe)
+    result: Array = as_array(lobe.weight) * value * light.irradiance
+    return result
 
 
-def shade_discs(
-    material: Any,
-    lights: Sequence[Any],
-    positions: npt.ArrayLike,
-    normals: npt.ArrayLike,
-    tangents: npt.ArrayLike,
-    views: npt.ArrayLike,
-) -> Array:
-    """The truth: lobes are summed over each light's disc, `DISC_POINTS` evenly placed."""
-    return _shade(material, lights, positions, normals, tangents, views, _sum_disc)
-
-
-def _sum_disc(light: Arriving, frame: Any, lobe: Any) -> Array:
+def _sum_disc(light: Arriving, frame: LocalFrame, lobe: Any) -> Array:
     k = np.arange(DISC_POINTS) + 0.5
     azimuth = np.pi * (1 + 5**0.5) * k
     result = np.zeros(light.irradiance.shape)
@@ -126,15 +102,22 @@ def _sum_disc(light: Arriving, frame: Any, lobe: Any) -> Array:
     return result
 
 
-def _shade(
+def shade_lights(
     material: Any,
     lights: Sequence[Any],
     positions: npt.ArrayLike,
     normals: npt.ArrayLike,
     tangents: npt.ArrayLike,
     views: npt.ArrayLike,
-    shade_lobe: Any,
+    *,
+    is_truth: bool = False,
 ) -> Array:
+    """Radiance (n, 3) under direct lights alone.
+
+    Lobes as samplers see them are wider by the light; the truth sums them over each light's disc,
+    `DISC_POINTS` evenly placed.
+    """
+    shade_lobe = _sum_disc if is_truth else _widen
     n, t, o = as_array(normals), as_array(tangents), as_array(views)
     arriving = [arriving_light(light, positions) for light in lights]
     below = np.zeros(n.shape)

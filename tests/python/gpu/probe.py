@@ -71,6 +71,15 @@ def rows(*parts):
     return np.concatenate([np.asarray(p, np.float32) for p in parts])
 
 
+def directions_above(rng, count, lowest=-4):
+    """Directions above the horizon, half of them as close to it as 10^lowest, some along the normal."""
+    cosine = np.where(rng.random(count) < 0.5, 10.0 ** rng.uniform(lowest, 0, count), rng.random(count))
+    cosine[:8] = 1
+    azimuth = rng.uniform(0, 2 * np.pi, count)
+    sine = np.sqrt(1 - cosine**2)
+    return units(np.stack([sine * np.cos(azimuth), sine * np.sin(azimuth), cosine], axis=-1))
+
+
 def units(vectors):
     """Unit vectors as float32 has them."""
     vectors = np.asarray(vectors, np.float64)

@@ -82,7 +82,9 @@ def test_the_reference_sums_over_the_disc(device, black, points, method):
     ):
         material = burnish.Material(0.3, [lobe])
         seen = np.sum(frame[0] * frame[2], axis=-1, keepdims=True) > 0
-        expected = np.where(seen, oracle.shade_discs(material, lights, positions, *frame), 0.0)
+        expected = np.where(
+            seen, oracle.shade_lights(material, lights, positions, *frame, is_truth=True), 0.0
+        )
         sampler = burnish.Reference(method=method)
         got = shade(device, black, material, sampler, few, lights)
         assert_close(got, expected, 1e-2)

@@ -1,7 +1,7 @@
 """GGX: shader against oracle from mirrors to matt, round to 1000:1, from the normal to the horizon."""
 
 import numpy as np
-from probe import LEAST_NORMAL, ULP, assert_close, probe, rows, units
+from probe import LEAST_NORMAL, ULP, assert_close, directions_above, probe, rows, units
 from widened import covariances, densities
 
 from burnish.oracle.arrays import dot
@@ -19,12 +19,7 @@ def roughnesses(rng, count=COUNT):
 
 
 def views(rng, count=COUNT):
-    """Views above the horizon, many of them close to it, some along the normal."""
-    cosine = np.where(rng.random(count) < 0.5, 10.0 ** rng.uniform(-4, 0, count), rng.random(count))
-    cosine[:8] = 1
-    azimuth = rng.uniform(0, 2 * np.pi, count)
-    sine = np.sqrt(1 - cosine**2)
-    return units(np.stack([sine * np.cos(azimuth), sine * np.sin(azimuth), cosine], axis=-1))
+    return directions_above(rng, count)
 
 
 def places(rng, count=COUNT):

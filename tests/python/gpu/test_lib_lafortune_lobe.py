@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from probe import probe, units
+from probe import directions_above, probe, units
 
 from burnish.oracle.arrays import dot
 from burnish.oracle.lobe import lafortune
@@ -26,11 +26,7 @@ IDS = [f"{lobe.c} {lobe.exponent:g}" for lobe in LOBES]
 
 
 def views(rng):
-    """Views above the horizon, many of them close to it, some along the normal."""
-    cosine = np.where(rng.random(COUNT) < 0.5, 10.0 ** rng.uniform(-4, 0, COUNT), rng.random(COUNT))
-    cosine[:8] = 1
-    azimuth, sine = rng.uniform(0, 2 * np.pi, COUNT), np.sqrt(1 - cosine**2)
-    return units(np.stack([sine * np.cos(azimuth), sine * np.sin(azimuth), cosine], axis=-1))
+    return directions_above(rng, COUNT)
 
 
 def own(lobe):
