@@ -195,7 +195,6 @@ void add_classes(const Scene& scene, Plan& plan) {
         for (const uint32_t instance : one.instances)
             plan.has_all_targets |= has_varying_emissive(scene.materials[plan.instances[instance].material]);
         plan.has_all_targets |= one.variant[shared::SPEC_HAS_COAT];
-        plan.has_coat |= one.variant[shared::SPEC_HAS_COAT];
         plan.has_tangent |= one.variant[shared::SPEC_HAS_TANGENT];
     }
 }

@@ -119,7 +119,6 @@ struct Plan {
     bool has_varying = false; ///< some material needs the wide G-buffer
     /// And some emits, has a clear coat, or reflects other than 1 along the surface: of textured materials.
     bool has_all_targets = false;
-    bool has_coat = false;
     bool has_tangent = false;
 
     std::vector<EffectLine> effects;
